@@ -1,0 +1,100 @@
+#include "scene/net_pattern.hpp"
+
+#include <algorithm>
+#include <charconv>
+
+namespace cinch {
+
+NetPattern::NetPattern(const Net& net)
+    : columns_(net.columns()), rows_(net.rows()), sub_(net.elements_per_side), mesh_(net.mesh) {
+  row_stride_ = (columns_ + 1) + sub_inner() * columns_ + sub_inner() * (columns_ + 1);
+}
+
+Index NetPattern::horizontal(Index i, Index j, Index k) const {
+  if (k == 0) return knot(i, j);
+  if (k == sub_) return knot(i + 1, j);
+  return j * row_stride_ + (columns_ + 1) + (k - 1) * columns_ + i;
+}
+
+Index NetPattern::vertical(Index i, Index j, Index k) const {
+  if (k == 0) return knot(i, j);
+  if (k == sub_) return knot(i, j + 1);
+  return j * row_stride_ + (columns_ + 1) + sub_inner() * columns_ + (k - 1) * (columns_ + 1) + i;
+}
+
+std::vector<std::array<double, 2>> NetPattern::places() const {
+  std::vector<std::array<double, 2>> at(static_cast<std::size_t>(nodes()));
+  const double step = mesh_ / sub_;
+  const auto put = [&](Index node, double column_steps, double row_steps) {
+    at[static_cast<std::size_t>(node)] = {(column_steps - 0.5 * columns_ * sub_) * step,
+                                          (row_steps - 0.5 * rows_ * sub_) * step};
+  };
+  for (Index j = 0; j <= rows_; ++j) {
+    for (Index i = 0; i < columns_; ++i)
+      for (Index k = 0; k <= sub_; ++k) put(horizontal(i, j, k), i * sub_ + k, j * sub_);
+    if (j == rows_) break;
+    for (Index i = 0; i <= columns_; ++i)
+      for (Index k = 0; k <= sub_; ++k) put(vertical(i, j, k), i * sub_, j * sub_ + k);
+  }
+  return at;
+}
+
+std::vector<std::array<Index, 2>> NetPattern::elements() const {
+  std::vector<std::array<Index, 2>> ends;
+  ends.reserve(static_cast<std::size_t>(sub_ * (columns_ * (rows_ + 1) + rows_ * (columns_ + 1))));
+  for (Index j = 0; j <= rows_; ++j) {
+    for (Index k = 0; k < sub_; ++k)
+      for (Index i = 0; i < columns_; ++i) ends.push_back({horizontal(i, j, k), horizontal(i, j, k + 1)});
+    if (j == rows_) break;
+    for (Index k = 0; k < sub_; ++k)
+      for (Index i = 0; i <= columns_; ++i) ends.push_back({vertical(i, j, k), vertical(i, j, k + 1)});
+  }
+  return ends;
+}
+
+std::vector<Index> NetPattern::edge(const std::string& name) const {
+  std::vector<Index> nodes;
+  if (name == "top" || name == "bottom") {
+    const Index j = name == "top" ? rows_ : 0;
+    for (Index i = 0; i < columns_; ++i)
+      for (Index k = 0; k < sub_; ++k) nodes.push_back(horizontal(i, j, k));
+    nodes.push_back(knot(columns_, j));
+  } else if (name == "left" || name == "right") {
+    const Index i = name == "right" ? columns_ : 0;
+    for (Index j = 0; j < rows_; ++j)
+      for (Index k = 0; k < sub_; ++k) nodes.push_back(vertical(i, j, k));
+    nodes.push_back(knot(i, rows_));
+  }
+  // clockwise: the right edge runs downwards, the bottom edge from right to left
+  if (name == "right" || name == "bottom") std::reverse(nodes.begin(), nodes.end());
+  return nodes;
+}
+
+namespace {
+
+// "I.J" to two numbers; false when the text is not that.
+bool parse_pair(std::string_view text, Index& i, Index& j) {
+  const auto dot = text.find('.');
+  if (dot == std::string_view::npos) return false;
+  const auto whole = [](std::string_view part, Index& value) {
+    const auto [end, error] = std::from_chars(part.data(), part.data() + part.size(), value);
+    return error == std::errc() && end == part.data() + part.size();
+  };
+  return whole(text.substr(0, dot), i) && whole(text.substr(dot + 1), j);
+}
+
+}  // namespace
+
+Index NetPattern::place(const std::string& name) const {
+  if (name == "top_left") return knot(0, rows_);
+  if (name == "top_right") return knot(columns_, rows_);
+  if (name == "bottom_right") return knot(columns_, 0);
+  if (name == "bottom_left") return knot(0, 0);
+  Index i = 0, j = 0;
+  if (name.starts_with("knot.") && parse_pair(std::string_view(name).substr(5), i, j) && i >= 0 && j >= 0 &&
+      i <= columns_ && j <= rows_)
+    return knot(i, j);
+  return -1;
+}
+
+}  // namespace cinch
