@@ -1,0 +1,126 @@
+#include "store/model.hpp"
+
+#include <algorithm>
+
+#include "base/error.hpp"
+#include "store/force_reduction.hpp"
+#include "store/topology.hpp"
+
+namespace cinch {
+namespace {
+
+constexpr std::size_t at(Index i) { return static_cast<std::size_t>(i); }
+
+void fill_nodes(Model& model, const Assembly& assembly, Stage stage) {
+  const bool before = stage == Stage::before_closing && assembly.has_closing();
+  model.nodes = before ? assembly.nodes_before : static_cast<Index>(assembly.nodes.size());
+  for (Index i = 0; i < model.nodes; ++i) {
+    const AssemblyNode& node = assembly.nodes[at(i)];
+    const double mass = before ? node.mass_before : node.mass;
+    if (!(mass > 0)) throw CaseError("error: node " + std::to_string(i) + " has no mass");
+    model.mass.push_back(mass);
+    model.inverse_mass.push_back(1 / mass);
+    if (node.support == Support::fixed) model.constraints.push_back({i, 0, 0, 0});
+    if (node.support == Support::guided)
+      model.constraints.push_back({i, node.axis.x(), node.axis.y(), node.axis.z()});
+  }
+}
+
+std::vector<kernel::Span> fill_elements(Model& model, const Assembly& assembly, Stage stage) {
+  const bool before = stage == Stage::before_closing && assembly.has_closing();
+  model.elements = before ? assembly.elements_before : static_cast<Index>(assembly.elements.size());
+  std::vector<std::array<Index, 2>> ends;
+  for (Index e = 0; e < model.elements; ++e)
+    ends.push_back({assembly.elements[at(e)].a, assembly.elements[at(e)].b});
+  Topology topology = cut_runs(ends, model.nodes);
+  for (const Index user : topology.user_element) {
+    const AssemblyElement& e = assembly.elements[at(user)];
+    model.stiffness.push_back(e.stiffness);
+    model.damping.push_back(e.damping);
+    model.rest_length.push_back(e.rest_length);
+    model.end_a.push_back(e.a);
+    model.end_b.push_back(e.b);
+    model.radius.push_back(e.radius);
+    model.compliance.push_back(e.compliance);
+    model.damped = model.damped || e.damping > 0;
+  }
+  model.user_element = std::move(topology.user_element);
+  return topology.runs;
+}
+
+ContactSet make_set(const Model& model, const Assembly& assembly, const std::vector<Index>& parts,
+                    bool count_once) {
+  ContactSet set;
+  set.parts = parts;
+  std::vector<bool> wanted(assembly.parts.size());
+  for (const Index p : parts) wanted[at(p)] = true;
+  std::vector<Index> degree(at(model.nodes));
+  for (Index e = 0; e < model.elements; ++e) {
+    if (!wanted[at(assembly.elements[at(model.user_element[at(e)])].part)]) continue;
+    set.elements.push_back(e);
+    ++degree[at(model.end_a[at(e)])];
+    ++degree[at(model.end_b[at(e)])];
+  }
+  const auto weight = [&](Index node) {
+    const double d = degree[at(node)];
+    return count_once ? (d - 1) / d : 0.0;
+  };
+  for (const Index e : set.elements) {
+    set.weight_a.push_back(weight(model.end_a[at(e)]));
+    set.weight_b.push_back(weight(model.end_b[at(e)]));
+  }
+  return set;
+}
+
+// Rings and balls that touch the same parts share one set.
+Index set_for(Model& model, const Assembly& assembly, const std::vector<Index>& parts, bool count_once) {
+  for (std::size_t s = 0; s < model.contact_sets.size(); ++s)
+    if (model.contact_sets[s].parts == parts) return static_cast<Index>(s);
+  model.contact_sets.push_back(make_set(model, assembly, parts, count_once));
+  return static_cast<Index>(model.contact_sets.size()) - 1;
+}
+
+void fill_rings(Model& model, const Assembly& assembly, bool count_once) {
+  for (const AssemblyRing& ring : assembly.rings) {
+    kernel::RingGeometry geometry{};
+    if (ring.element >= 0) {
+      geometry.a = assembly.elements[at(ring.element)].a;
+      geometry.b = assembly.elements[at(ring.element)].b;
+    } else {
+      geometry.a = geometry.b = ring.node;
+    }
+    for (int d = 0; d < 3; ++d) geometry.normal[d] = ring.normal[d];
+    geometry.radius = ring.radius;
+    model.ring_set.push_back(set_for(model, assembly, ring.parts, count_once));
+    double thickest = 0;
+    for (const Index e : model.contact_sets[at(model.ring_set.back())].elements)
+      thickest = std::max(thickest, model.radius[at(e)]);
+    geometry.reach = ring.radius + ring.wire_radius + thickest;
+    model.rings.push_back(geometry);
+    model.ring_wire_radius.push_back(ring.wire_radius);
+    model.ring_compliance.push_back(ring.compliance);
+  }
+}
+
+}  // namespace
+
+Model build_model(const Assembly& assembly, const Scene& scene, Stage stage) {
+  Model model;
+  fill_nodes(model, assembly, stage);
+  const std::vector<kernel::Span> runs = fill_elements(model, assembly, stage);
+  cut_element_blocks(runs, model.spans, model.element_blocks);
+  cut_node_blocks(model.nodes, runs, model.constraints, model.node_blocks, model.pieces);
+  const bool count_once = scene.contact.shared_node == SharedNode::once;
+  const bool before = stage == Stage::before_closing && assembly.has_closing();
+  if (!before) fill_rings(model, assembly, count_once);
+  for (const AssemblyBall& ball : assembly.balls)
+    model.balls.push_back(
+        {ball.center, ball.radius, ball.compliance, set_for(model, assembly, ball.parts, count_once)});
+  if (scene.gravity) {
+    model.gravity = *scene.gravity;
+    model.has_gravity = model.gravity.norm() > 0;
+  }
+  return model;
+}
+
+}  // namespace cinch

@@ -1,0 +1,70 @@
+// Everything about a scene that does not change while it is stepped, as structure of arrays.
+// Nodes keep the user's numbering; elements are grouped into runs and keep a map back.
+#pragma once
+#include <string>
+#include <vector>
+
+#include "base/aligned.hpp"
+#include "kernels/arguments.hpp"
+#include "scene/assembly.hpp"
+
+namespace cinch {
+
+/// The elements that one group of rings or one ball can touch, in ascending store order.
+struct ContactSet {
+  std::vector<Index> parts;     ///< parts of the assembly, what makes two sets the same
+  std::vector<Index> elements;  ///< store numbers
+  std::vector<double> weight_a,
+      weight_b;  ///< by element: (degree - 1) / degree of its end nodes within the set
+};
+
+struct Model {
+  Index nodes = 0, elements = 0;
+
+  // node                          meaning                                      unit   shape
+  AlignedVector<double> mass;          // lumped mass, eq. (2)                kg     node
+  AlignedVector<double> inverse_mass;  //                                     1/kg   node
+
+  // element (store order)
+  AlignedVector<double> stiffness;    // k                                   N/m    element
+  AlignedVector<double> damping;      // c                                   N s/m  element
+  AlignedVector<double> rest_length;  // l0                                  m      element
+  std::vector<Index> end_a, end_b;    // end nodes (cold: set-up, messages)         element
+  std::vector<double> radius;         // of the thread                       m      element
+  std::vector<double> compliance;     // h of eq. (8)                        1/Pa   element
+  std::vector<Index> user_element;    // store number -> user's number              element
+
+  // what each block of elements computes and each block of nodes gathers
+  std::vector<kernel::Span> spans;
+  std::vector<kernel::ElementBlock> element_blocks;
+  std::vector<kernel::NodeBlock> node_blocks;
+  std::vector<kernel::GatherPiece> pieces;
+  std::vector<kernel::Constraint> constraints;
+
+  // contact
+  std::vector<ContactSet> contact_sets;
+  std::vector<kernel::RingGeometry> rings;
+  std::vector<Index> ring_set;  // contact set of each ring
+  std::vector<double> ring_wire_radius, ring_compliance;
+  struct Ball {
+    Vec3 center;
+    double radius = 0, compliance = 0;
+    Index set = 0;
+  };
+  std::vector<Ball> balls;
+
+  bool damped = false;  // some element has a damper
+  Vec3 gravity = Vec3::Zero();
+  bool has_gravity = false;
+};
+
+/// Which part of an assembly a model holds.
+enum class Stage {
+  before_closing,  ///< without closing threads, split masses and ring contact; mass_before
+  closing          ///< everything
+};
+
+/// Builds the store; throws CaseError for a node without mass.
+Model build_model(const Assembly& assembly, const Scene& scene, Stage stage);
+
+}  // namespace cinch

@@ -1,0 +1,50 @@
+#include "store/state.hpp"
+
+#include <bit>
+
+#include "store/fields.hpp"
+
+namespace cinch {
+
+State::State(const Model& model) {
+  for (const NodeField& field : node_fields)
+    (this->*field.values).assign(static_cast<std::size_t>(model.nodes), 0.0);
+  dissipated.assign(model.element_blocks.size() * kernel::lanes, 0.0);
+  kernel::RingTally untouched{};
+  untouched.first_time = untouched.peak_time = -1;
+  untouched.stiffest_element = -1;
+  rings.assign(model.rings.size(), untouched);
+  balls.resize(model.balls.size());
+  reactions.assign(model.constraints.size(), kernel::Reaction{});
+}
+
+State initial_state(const Model& model, const Assembly& assembly) {
+  State state(model);
+  for (std::size_t i = 0; i < static_cast<std::size_t>(model.nodes); ++i) {
+    const AssemblyNode& node = assembly.nodes[i];
+    state.x[i] = node.position.x(), state.y[i] = node.position.y(), state.z[i] = node.position.z();
+    state.vx[i] = node.velocity.x(), state.vy[i] = node.velocity.y(), state.vz[i] = node.velocity.z();
+  }
+  return state;
+}
+
+namespace {
+
+void mix(std::uint64_t& hash, std::uint64_t word) {
+  for (int byte = 0; byte < 8; ++byte) {
+    hash ^= (word >> (8 * byte)) & 0xff;
+    hash *= 0x100000001b3ULL;
+  }
+}
+
+}  // namespace
+
+std::uint64_t state_hash(const State& state) {
+  std::uint64_t hash = 0xcbf29ce484222325ULL;
+  mix(hash, static_cast<std::uint64_t>(state.step));
+  for (const NodeField& field : node_fields)
+    for (const double value : state.*field.values) mix(hash, std::bit_cast<std::uint64_t>(value));
+  return hash;
+}
+
+}  // namespace cinch
