@@ -1,0 +1,30 @@
+// Tension-only spring and damper of one thread element, eq. (1) with model.md's rule:
+//   T = k (l - l0) + c dl/dt  where l > l0, never negative; T = 0 otherwise.
+// Positive T pulls the ends together. The damper's power (T - k (l - l0)) dl/dt is what the element
+// dissipates.
+#pragma once
+#include "kernels/vec.hpp"
+
+namespace cinch::CINCH_ISA {
+
+struct Axial {
+  double tension;     ///< N
+  double per_length;  ///< T / l, N/m: the force on end a is this times (x_b - x_a)
+  double power;       ///< dissipated, W
+};
+
+/// One element from its ends' relative position r and velocity v.
+inline Axial axial_law(V3 r, V3 v, double k, double c, double l0) {
+  const double length = std::sqrt(dot(r, r));
+  const double stretch = length - l0;
+  // a slack element may have length zero: divide by l0 then, the tension is zero anyway
+  const double inverse = 1.0 / (stretch > 0 ? length : l0);
+  const double rate = dot(r, v) * inverse;
+  const double spring = k * stretch;
+  const double pull = spring + c * rate;
+  const double tension = stretch > 0 && pull > 0 ? pull : 0.0;
+  const double power = stretch > 0 ? (tension - spring) * rate : 0.0;
+  return {tension, tension * inverse, power};
+}
+
+}  // namespace cinch::CINCH_ISA

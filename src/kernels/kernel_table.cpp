@@ -1,0 +1,59 @@
+#include "kernels/kernel_table.hpp"
+
+#include <cstdlib>
+#include <cstring>
+#include <initializer_list>
+
+namespace cinch {
+
+#define CINCH_DECLARE_ISA(isa)                \
+  namespace isa {                             \
+  void fill_axial(KernelTable& table);        \
+  void fill_ring_contact(KernelTable& table); \
+  void fill_ball_contact(KernelTable& table); \
+  void fill_node_update(KernelTable& table);  \
+  }
+CINCH_DECLARE_ISA(base)
+#ifdef CINCH_X86_ISAS
+CINCH_DECLARE_ISA(v3)
+CINCH_DECLARE_ISA(v4)
+#endif
+
+namespace {
+
+using Fill = void (*)(KernelTable&);
+
+KernelTable make_table(const char* isa, Fill axial, Fill ring, Fill ball, Fill node) {
+  KernelTable table{};
+  table.isa = isa;
+  for (const Fill fill : {axial, ring, ball, node}) fill(table);
+  return table;
+}
+
+KernelTable choose() {
+  const char* const wanted = std::getenv("CINCH_ISA");
+  const auto allowed = [&](const char* name) { return wanted == nullptr || std::strcmp(wanted, name) == 0; };
+#ifdef CINCH_X86_ISAS
+  const bool v3_here = __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma");
+  const bool v4_here = v3_here && __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512vl") &&
+                       __builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("avx512bw");
+  if (v4_here && allowed("v4"))
+    return make_table("v4", v4::fill_axial, v4::fill_ring_contact, v4::fill_ball_contact,
+                      v4::fill_node_update);
+  if (v3_here && allowed("v3"))
+    return make_table("v3", v3::fill_axial, v3::fill_ring_contact, v3::fill_ball_contact,
+                      v3::fill_node_update);
+#endif
+  (void)allowed;
+  return make_table("base", base::fill_axial, base::fill_ring_contact, base::fill_ball_contact,
+                    base::fill_node_update);
+}
+
+}  // namespace
+
+const KernelTable& kernels() {
+  static const KernelTable table = choose();
+  return table;
+}
+
+}  // namespace cinch
