@@ -1,0 +1,49 @@
+#include "plan/closing.hpp"
+
+#include "store/fields.hpp"
+
+namespace cinch {
+namespace {
+
+constexpr std::size_t at(Index i) { return static_cast<std::size_t>(i); }
+
+void add_velocity(State& state, Index node, const Vec3& jump) {
+  state.vx[at(node)] += jump.x();
+  state.vy[at(node)] += jump.y();
+  state.vz[at(node)] += jump.z();
+}
+
+}  // namespace
+
+State lay_closing_threads(const Model& after, const Assembly& assembly, const State& before) {
+  State state(after);
+  state.step = before.step;
+  for (const NodeField& field : node_fields) {
+    const auto& from = before.*field.values;
+    auto& to = state.*field.values;
+    std::copy(from.begin(), from.end(), to.begin());
+    for (const Lay& lay : assembly.lays)
+      to[at(lay.node)] = (1 - lay.s) * to[at(lay.a)] + lay.s * to[at(lay.b)];
+  }
+  for (const Lay& lay : assembly.lays) {
+    state.x[at(lay.node)] += lay.offset.x();
+    state.y[at(lay.node)] += lay.offset.y();
+    state.z[at(lay.node)] += lay.offset.z();
+  }
+  state.balls = before.balls;  // what targets have felt so far goes on
+  return state;
+}
+
+void separate(const Assembly& assembly, State& state) {
+  for (const Lay& lay : assembly.lays) add_velocity(state, lay.node, lay.jump);
+  for (const Recoil& recoil : assembly.recoils) add_velocity(state, recoil.node, recoil.jump);
+}
+
+void append_laid_nodes(const Assembly& assembly, std::vector<Vec3>& position, std::vector<Vec3>& velocity) {
+  for (const Lay& lay : assembly.lays) {
+    position.push_back((1 - lay.s) * position[at(lay.a)] + lay.s * position[at(lay.b)] + lay.offset);
+    velocity.push_back((1 - lay.s) * velocity[at(lay.a)] + lay.s * velocity[at(lay.b)]);
+  }
+}
+
+}  // namespace cinch

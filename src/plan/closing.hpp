@@ -1,0 +1,20 @@
+// What happens at the closing time (paper Secs. 2 and 5.3): closing threads appear where they lie, masses
+// separate.
+#pragma once
+#include "store/state.hpp"
+
+namespace cinch {
+
+/// The state of the whole scene from that before closing: nodes of closing threads lie on their carriers,
+/// x = (1 - s) x_a + s x_b + offset, and move with them, v = (1 - s) v_a + s v_b. Their mass was superposed
+/// with the same weights, so linear momentum stays exact; the kinetic energy it costs is about m dv^2 / 12 an
+/// element.
+State lay_closing_threads(const Model& after, const Assembly& assembly, const State& before);
+
+/// Adds the separation velocities of split masses (and recoils of launchers whose masses do not balance).
+void separate(const Assembly& assembly, State& state);
+
+/// Places of the closing nodes for pictures before the closing time: positions and velocities are appended.
+void append_laid_nodes(const Assembly& assembly, std::vector<Vec3>& position, std::vector<Vec3>& velocity);
+
+}  // namespace cinch

@@ -1,0 +1,86 @@
+#include "plan/preparation.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <limits>
+
+#include "base/error.hpp"
+
+namespace cinch {
+namespace {
+
+std::string part_name(const Part& part) {
+  static constexpr const char* kinds[] = {"net.", "mechanism.", "thread.", "ring."};
+  return kinds[static_cast<int>(part.kind)] + part.name;
+}
+
+// A step that fits whole numbers of times into the frame interval, below safety x bound.
+double automatic_step(const Scene& scene, double bound) {
+  const double interval = scene.output.frame_interval;
+  const double wanted = std::isfinite(bound) ? scene.time.safety * bound : interval;
+  return interval / std::ceil(interval / wanted);
+}
+
+void check_step(const Scene& scene, const Preparation& p) {
+  if (scene.time.allow_unstable || p.dt <= p.stable_step) return;
+  // four digits, rounded down: the step in the message must work
+  const double digits = std::pow(10.0, std::floor(std::log10(p.stable_step)) - 3);
+  const std::string where = scene.time.source.text.empty() ? "" : scene.time.source.text + ": ";
+  char text[400];
+  std::snprintf(
+      text, sizeof text,
+      "error: time.step_s = %.6g s is above the stable step, limited by %s; the largest step that works is "
+      "%.4g s (or time.step_s = \"auto\", or time.allow_unstable = true)",
+      p.dt, p.limited_by.c_str(), std::floor(p.stable_step / digits) * digits);
+  throw CaseError(where + text);
+}
+
+}  // namespace
+
+std::string element_label(const Assembly& assembly, Index user_element) {
+  const AssemblyElement& e = assembly.elements[static_cast<std::size_t>(user_element)];
+  const Part& part = assembly.parts[static_cast<std::size_t>(e.part)];
+  return "element " + std::to_string(user_element - part.first_element) + " of " + part_name(part) +
+         " (nodes " + std::to_string(e.a) + " and " + std::to_string(e.b) + ")";
+}
+
+std::string node_label(const Assembly& assembly, Index node) {
+  for (const Part& part : assembly.parts) {
+    const auto found = std::find(part.nodes.begin(), part.nodes.end(), node);
+    if (found != part.nodes.end())
+      return "node " + std::to_string(found - part.nodes.begin()) + " of " + part_name(part);
+  }
+  for (const NamedNode& named : assembly.named)
+    if (named.node == node) return "the mass " + named.name;
+  return "node " + std::to_string(node);
+}
+
+Preparation prepare(const Scene& scene) {
+  Preparation p;
+  p.assembly = assemble(scene);
+  const bool closes = p.assembly.has_closing();
+  const auto add = [&](const char* name, Stage stage) {
+    Phase phase{name, build_model(p.assembly, scene, stage), {}, {}};
+    phase.bound = stable_step(phase.model);
+    p.phases.push_back(std::move(phase));
+  };
+  if (closes && scene.closing.time.value_or(0) > 0) add("deployment", Stage::before_closing);
+  add(p.phases.empty() ? "whole scene" : "closing", Stage::closing);
+  p.stable_step = std::numeric_limits<double>::infinity();
+  for (const Phase& phase : p.phases)
+    if (phase.bound.step < p.stable_step) {
+      p.stable_step = phase.bound.step;
+      p.limited_by =
+          element_label(p.assembly, phase.model.user_element[static_cast<std::size_t>(phase.bound.element)]);
+      if (p.phases.size() > 1) p.limited_by += " while " + phase.name;
+    }
+  p.dt = scene.time.step > 0 ? scene.time.step : automatic_step(scene, p.stable_step);
+  check_step(scene, p);
+  p.end_step = std::llround(scene.time.end / p.dt);
+  if (closes) p.closing_step = std::llround(scene.closing.time.value_or(0) / p.dt);
+  for (Phase& phase : p.phases) phase.plan = plan_steps(scene, phase.model, p.dt);
+  return p;
+}
+
+}  // namespace cinch

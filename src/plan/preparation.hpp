@@ -1,0 +1,40 @@
+// From a scene to what can be stepped: assembly, models of both phases, the stable step, the step taken.
+// `cinch check` prints it, a simulation starts from it.
+#pragma once
+#include <optional>
+#include <string>
+
+#include "plan/stable_step.hpp"
+#include "plan/step_plan.hpp"
+#include "scene/assembly.hpp"
+
+namespace cinch {
+
+/// One stretch of time in which the model does not change.
+struct Phase {
+  std::string name;  ///< "deployment" or "closing" where the scene has both, else "whole scene"
+  Model model;
+  StableStep bound;
+  StepPlan plan;
+};
+
+struct Preparation {
+  Assembly assembly;
+  std::vector<Phase> phases;       ///< one or two, in order of time
+  std::int64_t closing_step = -1;  ///< first step of the closing phase; -1: nothing closes
+  std::int64_t end_step = 0;
+  double dt = 0;           ///< s
+  double stable_step = 0;  ///< s, over all phases
+  std::string limited_by;  ///< the element that limits it, in words
+};
+
+/// Throws CaseError for an impossible scene and for a given step above the stable bound (names the limiting
+/// element and the largest step that works), unless the scene allows it.
+Preparation prepare(const Scene& scene);
+
+/// "element 17 of thread.main (nodes 17 and 18)", by the user's number.
+std::string element_label(const Assembly& assembly, Index user_element);
+/// "node 17 of thread.main" (the first part that has it).
+std::string node_label(const Assembly& assembly, Index node);
+
+}  // namespace cinch

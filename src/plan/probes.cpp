@@ -1,0 +1,153 @@
+#include "plan/probes.hpp"
+
+#include <algorithm>
+
+#include "base/error.hpp"
+#include "plan/mouth.hpp"
+
+namespace cinch {
+namespace {
+
+const char* quantity_name(ProbeQuantity q) {
+  static constexpr const char* names[] = {"position", "displacement", "velocity",     "speed", "force",
+                                          "tension",  "mouth_area",   "mouth_spread", "energy"};
+  return names[static_cast<std::size_t>(q)];
+}
+
+const char* quantity_unit(ProbeQuantity q) {
+  static constexpr const char* units[] = {"m", "m", "m/s", "m/s", "N", "N", "m^2", "m", "J"};
+  return units[static_cast<std::size_t>(q)];
+}
+
+std::vector<std::string> suffixes(ProbeQuantity q) {
+  switch (q) {
+    case ProbeQuantity::position:
+    case ProbeQuantity::displacement:
+    case ProbeQuantity::velocity:
+      return {".x", ".y", ".z"};
+    case ProbeQuantity::force:
+      return {".x", ".y", ".z", ".magnitude"};
+    case ProbeQuantity::energy: {
+      std::vector<std::string> terms;
+      for (const std::string& name : Energies::names()) terms.push_back("." + name);
+      return terms;
+    }
+    default:
+      return {""};
+  }
+}
+
+// A ring or a node, whatever the probe is of.
+struct Subject {
+  bool ring = false;
+  std::size_t index = 0;
+};
+
+Subject subject_of(const Assembly& assembly, const Probe& probe) {
+  if (probe.of.starts_with("ring.")) return {true, static_cast<std::size_t>(assembly.ring_of(probe.of))};
+  return {false, static_cast<std::size_t>(assembly.node_of(probe.of))};
+}
+
+// The node that moves with the subject (a ring on an element has none: probe_columns refuses its velocity).
+std::size_t node_of(const Assembly& assembly, const Subject& subject) {
+  return subject.ring ? static_cast<std::size_t>(assembly.rings[subject.index].node) : subject.index;
+}
+
+// The elements whose greatest tension is meant: those of a part ("thread.NAME", "net.NAME",
+// "mechanism.NAME"), or those that meet at a node.
+std::vector<std::size_t> elements_of(const Assembly& assembly, const Probe& probe) {
+  static constexpr const char* kinds[] = {"net.", "mechanism.", "thread.", "ring."};
+  std::vector<std::size_t> found;
+  for (const Part& part : assembly.parts)
+    if (probe.of == kinds[static_cast<int>(part.kind)] + part.name)
+      for (Index e = 0; e < part.elements; ++e)
+        found.push_back(static_cast<std::size_t>(part.first_element + e));
+  if (!found.empty()) return found;
+  const Index node = assembly.node_of(probe.of);
+  for (std::size_t e = 0; e < assembly.elements.size(); ++e)
+    if (assembly.elements[e].a == node || assembly.elements[e].b == node) found.push_back(e);
+  return found;
+}
+
+void append(std::vector<double>& row, const Vec3& v) { row.insert(row.end(), {v.x(), v.y(), v.z()}); }
+
+void append_value(std::vector<double>& row, const Probe& probe, const Assembly& assembly, const Frame& frame,
+                  const std::vector<Vec3>& nodes_at_start, const std::vector<Vec3>& rings_at_start) {
+  switch (probe.quantity) {
+    case ProbeQuantity::mouth_area:
+      row.push_back(mouth_area(frame.ring_center));
+      return;
+    case ProbeQuantity::mouth_spread:
+      row.push_back(mouth_spread(frame.ring_center));
+      return;
+    case ProbeQuantity::energy: {
+      const std::vector<double> terms = frame.energy.values();
+      row.insert(row.end(), terms.begin(), terms.end());
+      return;
+    }
+    case ProbeQuantity::tension: {
+      double greatest = 0;
+      for (const std::size_t e : elements_of(assembly, probe))
+        greatest = std::max(greatest, frame.tension[e]);
+      row.push_back(greatest);
+      return;
+    }
+    default:
+      break;
+  }
+  const Subject subject = subject_of(assembly, probe);
+  const std::size_t i = subject.index;
+  switch (probe.quantity) {
+    case ProbeQuantity::position:
+      append(row, subject.ring ? frame.ring_center[i] : frame.position[i]);
+      break;
+    case ProbeQuantity::displacement:
+      append(row, subject.ring ? Vec3(frame.ring_center[i] - rings_at_start[i])
+                               : Vec3(frame.position[i] - nodes_at_start[i]));
+      break;
+    case ProbeQuantity::velocity:
+      append(row, frame.velocity[node_of(assembly, subject)]);
+      break;
+    case ProbeQuantity::speed:
+      row.push_back(frame.velocity[node_of(assembly, subject)].norm());
+      break;
+    default: {  // force
+      const Vec3 force = subject.ring ? frame.ring_force[i] : frame.contact_force[i];
+      append(row, force);
+      row.push_back(force.norm());
+    }
+  }
+}
+
+}  // namespace
+
+std::vector<ResultModel::ProbeColumn> probe_columns(const Scene& scene, const Assembly& assembly) {
+  std::vector<ResultModel::ProbeColumn> columns;
+  for (const Probe& probe : scene.probes) {
+    const ProbeQuantity q = probe.quantity;
+    if (q == ProbeQuantity::tension) {
+      elements_of(assembly, probe);
+    } else if (q != ProbeQuantity::mouth_area && q != ProbeQuantity::mouth_spread &&
+               q != ProbeQuantity::energy) {
+      const Subject subject = subject_of(assembly, probe);
+      const bool motion = q == ProbeQuantity::velocity || q == ProbeQuantity::speed;
+      if (subject.ring && motion && assembly.rings[subject.index].node < 0)
+        throw CaseError(probe.source.text + ": error: probe '" + probe.name +
+                        "': a ring on an element has no velocity of its own");
+    }
+    for (const std::string& suffix : suffixes(q))
+      columns.push_back({probe.name + suffix, quantity_name(q), probe.of, quantity_unit(q)});
+  }
+  return columns;
+}
+
+std::vector<double> probe_values(const Scene& scene, const Assembly& assembly, const Frame& frame,
+                                 const std::vector<Vec3>& nodes_at_start,
+                                 const std::vector<Vec3>& rings_at_start) {
+  std::vector<double> row;
+  for (const Probe& probe : scene.probes)
+    append_value(row, probe, assembly, frame, nodes_at_start, rings_at_start);
+  return row;
+}
+
+}  // namespace cinch

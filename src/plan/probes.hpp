@@ -1,0 +1,20 @@
+// What a probe measures: its columns and their values.
+#pragma once
+#include <vector>
+
+#include "base/result.hpp"
+#include "scene/assembly.hpp"
+
+namespace cinch {
+
+/// Columns of all probes of a scene, in order. Vectors have three, "NAME.x" and so on; forces a fourth,
+/// "NAME.magnitude". Throws CaseError for a probe of a part that does not exist or does not have the
+/// quantity.
+std::vector<ResultModel::ProbeColumn> probe_columns(const Scene& scene, const Assembly& assembly);
+
+/// Values of the columns; `nodes_at_start` and `rings_at_start` are positions at t = 0.
+std::vector<double> probe_values(const Scene& scene, const Assembly& assembly, const Frame& frame,
+                                 const std::vector<Vec3>& nodes_at_start,
+                                 const std::vector<Vec3>& rings_at_start);
+
+}  // namespace cinch

@@ -1,0 +1,76 @@
+// The public face of the solver: make one from a scene, advance it, look at it.
+#pragma once
+#include <memory>
+
+#include "base/result.hpp"
+#include "plan/closing.hpp"
+#include "plan/ledger.hpp"
+#include "plan/mouth.hpp"
+#include "plan/preparation.hpp"
+
+namespace cinch {
+
+class Simulation {
+ public:
+  /// Builds everything and stands at t = 0. `threads` 0: as many as pay for this scene (see choose_threads).
+  /// Throws CaseError for an impossible scene, NumericalError when no static equilibrium is found.
+  explicit Simulation(const Scene& scene, int threads = 0);
+
+  /// Advances to `step`; closing happens on the way. Throws NumericalError (node, ring or element, time,
+  /// likely cause) and leaves the state as it was when the fault was seen.
+  void advance_to(std::int64_t step);
+
+  /// Everything a frame holds, closing threads laid on their carriers before the closing time.
+  Frame frame();
+  /// One value for each column of `probe_columns`, from a frame taken now.
+  std::vector<double> probe_row(const Frame& now) const;
+  /// Looks at the mouth and at targets and notes events; call as often as events should be resolved.
+  void note_events(const Frame& now);
+
+  const std::vector<ResultModel::ProbeColumn>& probe_columns() const { return probe_columns_; }
+  ResultModel result_model() const;
+  /// All but wall time and status.
+  Summary summary();
+
+  std::int64_t step() const { return state_.step; }
+  double time() const { return static_cast<double>(state_.step) * preparation_.dt; }
+  const Preparation& preparation() const { return preparation_; }
+  const State& state() const { return state_; }
+  State& state() { return state_; }
+  const Model& model() const { return phase().model; }
+  const Stepper& stepper() const { return *stepper_; }
+  Stepper& stepper() { return *stepper_; }
+  int threads() const { return threads_; }
+  bool closed_phase() const { return phase_ + 1 == preparation_.phases.size(); }
+
+ private:
+  const Phase& phase() const { return preparation_.phases[phase_]; }
+  void find_start();
+  void start();
+  void enter_phase(std::size_t phase);
+  void close();
+  void check_health();
+  std::vector<Event> all_events() const;
+
+  Scene scene_;
+  Preparation preparation_;
+  int threads_;
+  std::size_t phase_ = 0;
+  State state_;
+  std::unique_ptr<Stepper> stepper_;
+  Ledger ledger_;
+  std::vector<ResultModel::ProbeColumn> probe_columns_;
+  std::vector<Vec3> ring_start_, node_start_;  ///< where rings and nodes were at t = 0, for displacements
+  std::vector<NetSurface> surfaces_;
+  std::array<double, stage_count> seconds_{};  ///< of phases that are over
+  double greatest_mouth_ = 0;
+  bool mouth_closed_ = false;
+  std::vector<bool> enclosed_;
+  std::vector<Event> events_;  ///< those noted here; contacts are kept in the tallies
+};
+
+/// Threads that pay for a scene of this size on this machine: one below the size that bench/ measured as
+/// break-even.
+int choose_threads(Index elements, int available);
+
+}  // namespace cinch

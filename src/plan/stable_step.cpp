@@ -1,0 +1,61 @@
+#include "plan/stable_step.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace cinch {
+namespace {
+
+// Inverse masses with zero at fixed nodes.
+std::vector<double> mobility(const Model& model) {
+  std::vector<double> inverse(model.inverse_mass.begin(), model.inverse_mass.end());
+  for (const kernel::Constraint& c : model.constraints)
+    if (c.ax == 0 && c.ay == 0 && c.az == 0) inverse[static_cast<std::size_t>(c.node)] = 0;
+  return inverse;
+}
+
+}  // namespace
+
+StableStep stable_step(const Model& model) {
+  const std::vector<double> inverse = mobility(model);
+  const auto elements = static_cast<std::size_t>(model.elements);
+  std::vector<double> k_sum(inverse.size()), c_sum(inverse.size());
+  for (std::size_t e = 0; e < elements; ++e)
+    for (const Index end : {model.end_a[e], model.end_b[e]}) {
+      k_sum[static_cast<std::size_t>(end)] += model.stiffness[e];
+      c_sum[static_cast<std::size_t>(end)] += model.damping[e];
+    }
+  StableStep out;
+  out.step = std::numeric_limits<double>::infinity();
+  for (std::size_t e = 0; e < elements; ++e) {
+    const auto a = static_cast<std::size_t>(model.end_a[e]), b = static_cast<std::size_t>(model.end_b[e]);
+    const double quadratic = (k_sum[a] * inverse[a] + k_sum[b] * inverse[b]) / 4;
+    const double linear = (c_sum[a] * inverse[a] + c_sum[b] * inverse[b]) / 2;
+    out.element_a.push_back(quadratic);
+    out.element_b.push_back(linear);
+    // the positive root of quadratic dt^2 + linear dt = 1, free of cancellation
+    const double step = 2 / (linear + std::sqrt(linear * linear + 4 * quadratic));
+    if (step < out.step) {
+      out.step = step;
+      out.element = static_cast<Index>(e);
+    }
+  }
+  return out;
+}
+
+AlignedVector<double> node_share(const Model& model, const StableStep& bound, double step) {
+  const std::vector<double> inverse = mobility(model);
+  AlignedVector<double> used(inverse.size());
+  for (std::size_t e = 0; e < bound.element_a.size(); ++e) {
+    const double usage = (bound.element_a[e] * step + bound.element_b[e]) * step;
+    for (const Index end : {model.end_a[e], model.end_b[e]}) {
+      double& u = used[static_cast<std::size_t>(end)];
+      u = std::max(u, usage);
+    }
+  }
+  for (std::size_t i = 0; i < used.size(); ++i) used[i] = inverse[i] / std::max(1 - used[i], 1e-3);
+  return used;
+}
+
+}  // namespace cinch

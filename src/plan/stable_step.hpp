@@ -1,0 +1,31 @@
+// The largest step at which central differences with lagged damping stay bounded, and what limits it.
+//
+// With forces -K x - C v(n-1/2) the scheme is stable while dt^2/4 K + dt/2 C <= M (as matrices); for one mode
+// that is dt = (2/omega) (sqrt(1 + xi^2) - xi), xi = c omega / (2 k). Elements can be treated one by one if
+// each nodal mass is shared out among them: in proportion to their own dt^2/4 k + dt/2 c, element e with ends
+// a, b is stable while
+//   dt^2/4 (S_a/m_a + S_b/m_b) + dt/2 (C_a/m_a + C_b/m_b) <= 1,   S, C: sums of k, c over the elements at a
+//   node.
+// This holds for any shape of the net (no direction is assumed) and is sharp for a straight uniform chain.
+// Slack members only lower K. A fixed node counts as infinitely heavy.
+#pragma once
+#include <string>
+#include <vector>
+
+#include "store/model.hpp"
+
+namespace cinch {
+
+struct StableStep {
+  double step = 0;                           ///< s; infinite for a scene without elements
+  Index element = -1;                        ///< store number of the element that limits
+  std::vector<double> element_a, element_b;  ///< coefficients: usage(dt) = a dt^2 + b dt
+};
+
+StableStep stable_step(const Model& model);
+
+/// By node: 1 / (m (1 - u)), u the largest usage at `step` of the elements at the node: what contacts have
+/// left, 1/kg. A fixed node has 0.
+AlignedVector<double> node_share(const Model& model, const StableStep& bound, double step);
+
+}  // namespace cinch

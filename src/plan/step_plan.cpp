@@ -1,0 +1,58 @@
+#include "plan/step_plan.hpp"
+
+namespace cinch {
+
+const char* stage_name(StageId stage) {
+  static constexpr const char* names[] = {"axial forces", "ring contact", "target contact", "gather and move",
+                                          "broadphase",   "observe",      "output"};
+  return names[static_cast<std::size_t>(stage)];
+}
+
+StepPlan plan_steps(const Scene& scene, const Model& model, double dt) {
+  StepPlan plan;
+  plan.dt = dt;
+  plan.damped = model.damped;
+  plan.ledger = scene.output.ledger;
+  plan.gravity = model.has_gravity;
+  plan.rings = !model.rings.empty();
+  plan.balls = !model.balls.empty();
+  plan.couple = scene.contact.couple == RingCouple::conserving;
+  plan.golden = scene.contact.distance == DistanceMethod::golden;
+  plan.alpha_ring = scene.contact.alpha_ring;
+  plan.alpha_target = scene.contact.alpha_target;
+  plan.margin = scene.contact.margin;
+  plan.speed_limit = scene.time.speed_limit;
+  return plan;
+}
+
+std::vector<StageInfo> StepPlan::stages(const Model& model) const {
+  const auto count = [](std::size_t n, const char* what) { return std::to_string(n) + " " + what; };
+  std::vector<StageInfo> list;
+  list.push_back({"axial forces", true,
+                  count(static_cast<std::size_t>(model.elements), "elements in ") +
+                      count(model.spans.size(), "runs, springs") + (damped ? " and dampers" : "")});
+  list.push_back({"dampers", damped, damped ? "inside axial forces" : "no material has damping"});
+  list.push_back({"ring contact", rings,
+                  rings
+                      ? count(model.rings.size(), golden ? "rings, golden section" : "rings, exact distance")
+                      : "no rings in this phase"});
+  list.push_back({"couple of eq. (12)", rings && couple,
+                  !rings   ? "no rings"
+                  : couple ? "conserving"
+                           : "paper: dropped and booked"});
+  list.push_back({"target contact", balls, balls ? count(model.balls.size(), "balls") : "no target"});
+  list.push_back(
+      {"broadphase", contacts(), contacts() ? "only when the margin may be used up" : "no contacts"});
+  list.push_back({"gravity", gravity, gravity ? "inside gather and move" : "no gravity"});
+  list.push_back({"supports", !model.constraints.empty(),
+                  model.constraints.empty() ? "no fixed or guided node"
+                                            : count(model.constraints.size(), "fixed or guided nodes")});
+  list.push_back({"gather and move", true,
+                  count(static_cast<std::size_t>(model.nodes), "nodes in ") +
+                      count(model.node_blocks.size(), "blocks")});
+  list.push_back(
+      {"energy ledger", ledger, ledger ? "dissipation summed every step" : "output.ledger = false"});
+  return list;
+}
+
+}  // namespace cinch

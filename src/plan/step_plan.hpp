@@ -1,0 +1,47 @@
+// The stages of a step: which of them this scene needs, and why the others are left out.
+#pragma once
+#include <array>
+#include <string>
+#include <vector>
+
+#include "store/model.hpp"
+
+namespace cinch {
+
+/// In running order.
+enum class StageId {
+  axial_forces,
+  ring_contact,
+  target_contact,
+  gather_and_move,
+  broadphase,
+  observe,
+  output,
+  count
+};
+
+constexpr std::size_t stage_count = static_cast<std::size_t>(StageId::count);
+
+struct StageInfo {
+  std::string name;
+  bool runs = true;
+  std::string note;  ///< what it does here, or why it is left out
+};
+
+struct StepPlan {
+  double dt = 0;  ///< s
+  bool damped = false, ledger = false, gravity = false, rings = false, balls = false;
+  bool couple = true, golden = false;
+  double alpha_ring = 0, alpha_target = 0;  ///< s/m
+  double margin = 0;                        ///< m, 0: automatic
+  double speed_limit = 0;                   ///< m/s
+
+  bool contacts() const { return rings || balls; }
+  std::vector<StageInfo> stages(const Model& model) const;
+};
+
+StepPlan plan_steps(const Scene& scene, const Model& model, double dt);
+
+const char* stage_name(StageId stage);
+
+}  // namespace cinch
