@@ -1,0 +1,327 @@
+// Keys of the sections that describe the run, and of materials, targets and probes.
+#include "input/key_table.hpp"
+
+namespace cinch {
+
+namespace {
+
+using enum KeyType;
+
+const char* const ours = "choice of this program";
+
+}  // namespace
+
+const Section<Scene>& case_section() {
+  static const Section<Scene> section(
+      {.name = "case", .about = "Words about the case."},
+      {
+          {{.name = "title", .type = text, .fallback = "\"\"", .meaning = "One line that names the case."},
+           into(&Scene::title)},
+          {{.name = "about",
+            .type = text,
+            .fallback = "\"\"",
+            .meaning = "What the case shows and what to expect."},
+           into(&Scene::about)},
+      });
+  return section;
+}
+
+const Section<TimeSpec>& time_section() {
+  static const Section<TimeSpec> section(
+      {.name = "time", .required = true, .about = "End and step of the simulation."},
+      {
+          {{.name = "end_s",
+            .unit = "s",
+            .range = above(0, 1e6),
+            .required = true,
+            .meaning = "End of the simulated time."},
+           into(&TimeSpec::end)},
+          {{.name = "step_s",
+            .unit = "s",
+            .range = above(0, 1),
+            .words = {"auto"},
+            .fallback = "\"auto\"",
+            .meaning = "Time step. `auto`: `safety` times the stable step of the scene.",
+            .source = "the paper's step (Sec. 5.3) is 1e-6 s; whether it is stable depends on the scene"},
+           [](TimeSpec& time, const Value& value) { time.step = value.is_word ? 0 : value.number; }},
+          {{.name = "safety",
+            .range = above(0, 1),
+            .fallback = "0.5",
+            .meaning = "Automatic step over the stable step.",
+            .source = "tension-only threads without damping gain energy well below the linear bound"},
+           into(&TimeSpec::safety)},
+          {{.name = "allow_unstable",
+            .type = flag,
+            .fallback = "false",
+            .meaning = "Accept a given step above the stable step instead of refusing the run.",
+            .source = ours},
+           into(&TimeSpec::allow_unstable)},
+          {{.name = "speed_limit_m_s",
+            .unit = "m/s",
+            .range = above(0),
+            .fallback = "1e5",
+            .meaning = "A node faster than this stops the run.",
+            .source = "far above any speed of a sound run, far below overflow"},
+           into(&TimeSpec::speed_limit)},
+      });
+  return section;
+}
+
+const Section<OutputSpec>& output_section() {
+  static const Section<OutputSpec> section(
+      {.name = "output", .about = "What is written, and how often."},
+      {
+          {{.name = "frame_interval_s",
+            .unit = "s",
+            .range = above(0, 1e6),
+            .fallback = "0.01",
+            .meaning = "Time between two frames (the whole scene). At most 1e6 frames a run.",
+            .source = ours},
+           into(&OutputSpec::frame_interval)},
+          {{.name = "probe_interval_s",
+            .unit = "s",
+            .range = from(0, 1e6),
+            .fallback = "0",
+            .meaning =
+                "Time between two samples of the probes; 0: with the frames. At most 1e7 samples a run.",
+            .source = ours},
+           into(&OutputSpec::probe_interval)},
+          {{.name = "ledger",
+            .type = flag,
+            .fallback = "true",
+            .meaning = "Keep the energy ledger (dissipation and work, summed every step).",
+            .source = "its residual is the first check of a run"},
+           into(&OutputSpec::ledger)},
+          {{.name = "compress",
+            .type = flag,
+            .fallback = "false",
+            .meaning = "Deflate the frames.",
+            .source = "pays only above about 10,000 nodes"},
+           into(&OutputSpec::compress)},
+      });
+  return section;
+}
+
+const Section<Scene>& gravity_section() {
+  static const Section<Scene> section({.name = "gravity",
+                                       .optional_feature = true,
+                                       .about = "Uniform gravity. Without this section there is none."},
+                                      {
+                                          {{.name = "acceleration_m_s2",
+                                            .type = vector,
+                                            .unit = "m/s^2",
+                                            .range = from(-1e4, 1e4),
+                                            .required = true,
+                                            .meaning = "Acceleration of free fall."},
+                                           into(&Scene::gravity)},
+                                      });
+  return section;
+}
+
+const Section<Scene>& start_section() {
+  static const Section<Scene> section(
+      {.name = "start", .about = "The state at t = 0."},
+      {
+          {{.name = "equilibrium",
+            .type = flag,
+            .fallback = "false",
+            .meaning = "Start from static equilibrium under gravity instead of the shape as given.",
+            .source = "Sec. 5.2 starts from a net that hangs at rest"},
+           into(&Scene::equilibrium)},
+      });
+  return section;
+}
+
+const Section<Closing>& closing_section() {
+  static const Section<Closing> section(
+      {.name = "closing",
+       .optional_feature = true,
+       .about = "When the closing mechanisms separate and threads laid `along` other parts come to life. "
+                "Needed as "
+                "soon as the case has such threads."},
+      {
+          {{.name = "time_s",
+            .unit = "s",
+            .range = from(0, 1e6),
+            .required = true,
+            .meaning =
+                "Starting time of closing. Before it the closing threads and rings are extra mass only "
+                "(Sec. 5.3)."},
+           into(&Closing::time)},
+      });
+  return section;
+}
+
+const Section<Contact>& contact_section() {
+  static const Section<Contact> section(
+      {.name = "contact", .about = "The law of contact, eqs. (3)-(12)."},
+      {
+          {{.name = "alpha_ring_s_m",
+            .unit = "s/m",
+            .range = from(0, 100),
+            .fallback = "0.05",
+            .meaning = "alpha of eq. (9), thread against ring.",
+            .source = "not in the paper; published range 0.05 to 0.3"},
+           into(&Contact::alpha_ring)},
+          {{.name = "alpha_target_s_m",
+            .unit = "s/m",
+            .range = from(0, 100),
+            .fallback = "0.05",
+            .meaning = "alpha of eq. (9), thread against target.",
+            .source = "not in the paper; published range 0.05 to 0.3"},
+           into(&Contact::alpha_target)},
+          {{.name = "couple",
+            .type = choice,
+            .words = {"conserving", "paper"},
+            .fallback = "\"conserving\"",
+            .meaning = "Couple of the contact force about a ring's centre: handed to the host element, or "
+                       "dropped as "
+                       "in eq. (12).",
+            .source = "eq. (12) loses angular momentum and energy at any step"},
+           into(&Contact::couple)},
+          {{.name = "distance",
+            .type = choice,
+            .words = {"exact", "golden"},
+            .fallback = "\"exact\"",
+            .meaning = "Closest point of element and ring, eq. (4): exact roots, or golden section search.",
+            .source = "golden section is the paper's method; it misses the second minimum of long elements"},
+           into(&Contact::distance)},
+          {{.name = "shared_node",
+            .type = choice,
+            .words = {"once", "paper"},
+            .fallback = "\"once\"",
+            .meaning = "A contact at a node shared by two elements: counted once, or by each (0 <= t <= 1, "
+                       "Sec. 4.1).",
+            .source = "the paper's rule doubles the force at nodes"},
+           into(&Contact::shared_node)},
+          {{.name = "margin_m",
+            .unit = "m",
+            .range = from(0, 1e3),
+            .fallback = "0",
+            .meaning =
+                "Margin of the contact search; 0: chosen from the element lengths. Changes run time only.",
+            .source = ours},
+           into(&Contact::margin)},
+      });
+  return section;
+}
+
+const Section<Material>& material_section() {
+  static const Section<Material> section(
+      {.name = "material", .named = true, .about = "A material of threads and nets."},
+      {
+          {{.name = "youngs_modulus_Pa",
+            .unit = "Pa",
+            .range = above(0, 1e13),
+            .required = true,
+            .meaning = "Young's modulus."},
+           into(&Material::youngs_modulus)},
+          {{.name = "poissons_ratio",
+            .range = from(-0.99, 0.5),
+            .fallback = "0.3",
+            .meaning = "Poisson's ratio.",
+            .source = "Table 1, thread"},
+           into(&Material::poissons_ratio)},
+          {{.name = "density_kg_m3",
+            .unit = "kg/m^3",
+            .range = above(0, 1e5),
+            .required = true,
+            .meaning = "Density."},
+           into(&Material::density)},
+          {{.name = "damping_ratio",
+            .range = from(0, 10),
+            .fallback = "0.106",
+            .meaning = "Damping ratio zeta of the rule below.",
+            .source = "not in the paper; used by several published net models"},
+           into(&Material::damping_ratio)},
+          {{.name = "damping_rule",
+            .type = choice,
+            .words = {"element", "stiffness"},
+            .fallback = "\"element\"",
+            .meaning = "`element`: c = 2 zeta sqrt(k m_e), m_e the element's mass. `stiffness`: c = (2 zeta "
+                       "/ omega_1) "
+                       "k.",
+            .source = "not in the paper; the stiffness rule can divide the stable step by 10"},
+           into(&Material::damping_rule)},
+          {{.name = "damping_frequency_rad_s",
+            .unit = "rad/s",
+            .range = above(0),
+            .fallback_note = "none; needed by the `stiffness` rule",
+            .meaning = "omega_1 of the `stiffness` rule."},
+           into(&Material::damping_frequency)},
+      });
+  return section;
+}
+
+const Section<BallTarget>& target_section() {
+  static const Section<BallTarget> section(
+      {.name = "target", .named = true, .about = "A body to be caught, fixed in space."},
+      {
+          {{.name = "shape",
+            .type = choice,
+            .words = {"ball"},
+            .fallback = "\"ball\"",
+            .meaning = "Shape.",
+            .source = "Sec. 5.3"}},
+          {{.name = "center_m",
+            .type = vector,
+            .unit = "m",
+            .range = from(-1e6, 1e6),
+            .required = true,
+            .meaning = "Centre."},
+           into(&BallTarget::center)},
+          {{.name = "radius_m", .unit = "m", .range = above(0, 1e4), .required = true, .meaning = "Radius."},
+           into(&BallTarget::radius)},
+          {{.name = "youngs_modulus_Pa",
+            .unit = "Pa",
+            .range = above(0, 1e13),
+            .required = true,
+            .meaning = "Young's modulus."},
+           into(&BallTarget::youngs_modulus)},
+          {{.name = "poissons_ratio",
+            .range = from(-0.99, 0.5),
+            .fallback = "0.39",
+            .meaning = "Poisson's ratio.",
+            .source = "Table 4, target"},
+           into(&BallTarget::poissons_ratio)},
+          {{.name = "touches",
+            .type = names,
+            .refers = a_net | a_thread | a_mechanism,
+            .fallback = "[]",
+            .meaning =
+                "Parts that can touch it: `net.NAME`, `thread.NAME`, `mechanism.NAME` (its towing thread); "
+                "empty: all of them.",
+            .source = "the paper does not say which parts touch the ball"},
+           into(&BallTarget::touches)},
+      });
+  return section;
+}
+
+const Section<Probe>& probe_section() {
+  static const Section<Probe> section(
+      {.name = "probe",
+       .named = true,
+       .about =
+           "A quantity recorded often. `position`, `displacement`, `velocity` and `speed` are of a node or "
+           "ring; "
+           "`force` is the contact force on a ring or node; `tension` of a thread, net or mechanism is the "
+           "greatest of its elements, of a node the greatest of the elements that meet there; `mouth_area`, "
+           "`mouth_spread` (greatest distance between ring centres) and `energy` are of the whole scene."},
+      {
+          {{.name = "quantity",
+            .type = choice,
+            .words = {"position", "displacement", "velocity", "speed", "force", "tension", "mouth_area",
+                      "mouth_spread", "energy"},
+            .required = true,
+            .meaning = "What is recorded."},
+           into(&Probe::quantity)},
+          {{.name = "of",
+            .type = name,
+            .fallback_note = "none; not for `mouth_area`, `mouth_spread`, `energy`",
+            .meaning = "Whose."},
+           into(&Probe::of)},
+      });
+  return section;
+}
+
+}  // namespace cinch

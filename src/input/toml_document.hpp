@@ -1,0 +1,64 @@
+// A TOML text as a plain tree with the place of every key and value, members in file order.
+// The only door to toml++: nothing else in the project includes it.
+#pragma once
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace cinch {
+
+/// Where something was said: line and column of the case file (from 1), or the number of an override.
+struct Place {
+  int line = 0, column = 0;
+  int override_number = 0;  ///< 1 for the first --set, ...; 0: the case file
+};
+
+struct TomlMember;
+
+/// One value of any TOML type.
+struct TomlValue {
+  enum class Type { string, integer, number, boolean, array, table, date };
+  Type type = Type::table;
+  std::string text;                 ///< string
+  std::int64_t integer = 0;         ///< integer
+  double number = 0;                ///< integer or number
+  bool flag = false;                ///< boolean
+  std::vector<TomlValue> items;     ///< array
+  std::vector<TomlMember> members;  ///< table, in file order
+  Place place;
+
+  const TomlMember* find(std::string_view key) const;
+  TomlMember* find(std::string_view key);
+};
+
+struct TomlMember {
+  std::string key;
+  Place key_place;
+  TomlValue value;
+};
+
+/// A text that is no valid TOML.
+struct TomlError {
+  Place place;
+  std::string what;
+};
+
+/// Parses a document. Only ASCII is accepted outside of comments; throws TomlError.
+TomlValue parse_toml(std::string_view text);
+
+/// Parses one value; a text that is no TOML value counts as a string. Throws TomlError for non-ASCII text.
+TomlValue parse_toml_value(std::string_view text, Place place);
+
+/// A value as TOML text on one line.
+std::string toml_text(const TomlValue& value);
+std::string toml_text(double number);
+std::string toml_text(const std::string& string);
+
+/// A key as TOML text: bare where possible, else quoted.
+std::string toml_key(const std::string& key);
+
+/// A value as an error message shows it: shortened, with its type.
+std::string describe(const TomlValue& value);
+
+}  // namespace cinch
