@@ -1,0 +1,121 @@
+#include "output/info.hpp"
+
+#include <algorithm>
+#include <cstdio>
+#include <ostream>
+
+namespace cinch {
+namespace {
+
+using std::string;
+
+template <class... Values>
+void line(std::ostream& out, const char* label, const char* format, Values... values) {
+  char text[512];
+  if constexpr (sizeof...(values) == 0) {
+    std::snprintf(text, sizeof text, "%s", format);
+  } else {
+    std::snprintf(text, sizeof text, format, values...);
+  }
+  char start[32];
+  std::snprintf(start, sizeof start, "%-14s", label);
+  out << start << text << '\n';
+}
+
+void print_frames(const Result& result, std::ostream& out) {
+  const auto& times = result.frame_times();
+  if (times.empty()) {
+    line(out, "frames", "none");
+  } else {
+    line(out, "frames", "%d, t = %.9g .. %.9g s, last step %lld", result.frames(), times.front(),
+         times.back(), static_cast<long long>(result.frame_steps().back()));
+  }
+  if (!result.model().probes.empty()) {
+    line(out, "probes", "%zu columns, %zu rows", result.model().probes.size(), result.probe_times().size());
+    for (const auto& probe : result.model().probes) {
+      line(out, "", "%s: %s of %s, %s", probe.name.c_str(), probe.quantity.c_str(), probe.of.c_str(),
+           probe.unit.c_str());
+    }
+  }
+}
+
+void print_parts(const ResultModel& model, std::ostream& out) {
+  line(out, "model", "%zu nodes, %zu elements, %zu rings, %zu balls", model.node_mass.size(),
+       model.elements.size(), model.rings.size(), model.balls.size());
+  for (std::size_t i = 0; i < model.parts.size(); ++i) {
+    const auto& part = model.parts[i];
+    const auto count = std::count(model.element_part.begin(), model.element_part.end(), static_cast<int>(i));
+    line(out, i == 0 ? "parts" : "", "%s.%s: %td elements%s", part.kind.c_str(), part.name.c_str(), count,
+         part.closing ? ", closing thread" : "");
+  }
+  for (const auto& ball : model.balls) line(out, "ball", "%s: radius %.9g m", ball.name.c_str(), ball.radius);
+  if (model.closing_time) line(out, "closing time", "%.9g s", *model.closing_time);
+}
+
+void print_stages(const Summary& summary, std::ostream& out) {
+  double total = 0;
+  for (const auto& stage : summary.stages) total += stage.seconds;
+  const char* label = "stages";
+  for (const auto& stage : summary.stages) {
+    line(out, label, "%-24s %10.3f s %5.1f %%", stage.name.c_str(), stage.seconds,
+         total > 0 ? 100 * stage.seconds / total : 0.0);
+    label = "";
+  }
+}
+
+void print_events(const Summary& summary, std::ostream& out) {
+  const char* label = "events";
+  for (const auto& event : summary.events) {
+    line(out, label, "t = %.9g s  %s %s", event.time, event.kind.c_str(), event.name.c_str());
+    label = "";
+  }
+  label = "rings";
+  for (const auto& ring : summary.ring_records) {
+    if (ring.first_contact_time < 0) {
+      line(out, label, "%s: never touched", ring.name.c_str());
+    } else {
+      line(out, label, "%s: first contact at %.9g s (%.4g N), peak %.4g N at %.9g s", ring.name.c_str(),
+           ring.first_contact_time, ring.first_contact_force, ring.peak_force, ring.peak_time);
+    }
+    label = "";
+  }
+}
+
+void print_verdict(const Summary& summary, std::ostream& out) {
+  line(out, "status", "%s%s%s", summary.status.c_str(), summary.message.empty() ? "" : ": ",
+       summary.message.c_str());
+  line(out, "steps", "%lld of %.9g s, %.9g s simulated", static_cast<long long>(summary.steps),
+       summary.time_step, summary.simulated_seconds);
+  line(out, "stable step", "%.4g s, limited by %s", summary.stable_step,
+       summary.stable_step_limited_by.c_str());
+  line(out, "wall time", "%.3f s, %.4g min per simulated second", summary.wall_seconds,
+       summary.minutes_per_simulated_second());
+  line(out, "energy", "initial %.6g J, residual %.3g J (%.2e of the largest input)", summary.energy_initial,
+       summary.energy.residual, summary.relative_residual);
+  line(out, "momentum", "linear drift %.3g kg m/s", summary.linear_momentum_drift);
+  if (summary.angular_momentum_drift) {
+    line(out, "", "angular drift %.3g kg m^2/s", *summary.angular_momentum_drift);
+  }
+  line(out, "penetration", "%.4g m at most", summary.max_penetration);
+  line(out, "state hash", "0x%016llx", static_cast<unsigned long long>(summary.state_hash));
+}
+
+}  // namespace
+
+void print_info(const Result& result, std::ostream& out) {
+  const ResultModel& model = result.model();
+  line(out, "case", "%s%s%s", model.case_name.c_str(), model.title.empty() ? "" : ": ", model.title.c_str());
+  line(out, "written by", "cinch %s (%s), %s, %s, %d thread%s", model.version.c_str(), model.commit.c_str(),
+       model.compiler.c_str(), model.isa.c_str(), model.threads, model.threads == 1 ? "" : "s");
+  print_frames(result, out);
+  print_parts(model, out);
+  if (!result.summary()) {
+    line(out, "status", "not finished: still running, or killed");
+    return;
+  }
+  print_stages(*result.summary(), out);
+  print_events(*result.summary(), out);
+  print_verdict(*result.summary(), out);
+}
+
+}  // namespace cinch

@@ -1,0 +1,283 @@
+#include "output/recorder.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <optional>
+
+#include "base/error.hpp"
+#include "output/hdf5_file.hpp"
+#include "output/model_io.hpp"
+#include "output/result_layout.hpp"
+#include "output/summary_json.hpp"
+#include "output/text_file.hpp"
+#include "output/xdmf.hpp"
+
+namespace cinch {
+namespace {
+
+using namespace layout;
+using Clock = std::chrono::steady_clock;
+using Integers = h5::Series<std::int64_t>;
+using Reals = h5::Series<double>;
+using Bytes = h5::Series<std::uint8_t>;
+
+constexpr hsize_t kLargestPacked = 1 << 20;  // bytes: what HDF5 keeps of a compressed data set in memory
+constexpr hsize_t kSmallestPlain = 1 << 17;  // bytes
+constexpr hsize_t kScalarRows = 1024;        // rows in a chunk of single numbers
+constexpr auto kXdmfInterval = std::chrono::seconds(5);
+
+/// Rows in a chunk, for frames of `rows` rows. Compressed: one frame, or an equal part of a large one. Plain:
+/// several small frames, so that the data set's index seldom grows (a kill while HDF5 splits a full index
+/// node of 64 chunks can hide earlier frames).
+hsize_t chunk_rows(hsize_t rows, hsize_t row_bytes, bool compress) {
+  const hsize_t bytes = std::max<hsize_t>(rows * row_bytes, 1);
+  if (!compress) return rows * std::max<hsize_t>(kSmallestPlain / bytes, 1);
+  const hsize_t pieces = (bytes + kLargestPacked - 1) / kLargestPacked;
+  return (rows + pieces - 1) / pieces;
+}
+
+h5::SeriesLayout rows_of(std::size_t rows, std::size_t width, std::size_t bytes, bool compress,
+                         const char* unit) {
+  h5::SeriesLayout layout;
+  if (width > 1) layout.row = {width};
+  layout.chunk_rows = chunk_rows(rows, width * bytes, compress);
+  layout.compress = compress;
+  layout.unit = unit;
+  return layout;
+}
+
+h5::SeriesLayout numbers(const char* unit = "") { return {{}, kScalarRows, false, unit}; }
+
+/// What VTK's reader wants to know of each step. The topology never changes, so that most of it is zero for
+/// ever; equal columns are one data set with several names.
+struct StepTable {
+  explicit StepTable(h5::File& file)
+      : times(file, kTimes, numbers("s")),
+        parts(file, "/VTKHDF/Steps/NumberOfParts", numbers()),
+        zeros(file, "/VTKHDF/Steps/PartOffsets", numbers()),
+        topology(file, "/VTKHDF/Steps/CellOffsets", {{1}, kScalarRows, false, ""}),
+        points(file, "/VTKHDF/Steps/PointOffsets", numbers()),
+        cells(file, "/VTKHDF/Steps/CellDataOffsets/tension", numbers()) {
+    file.create_link("/VTKHDF/Steps/CellOffsets", "/VTKHDF/Steps/ConnectivityIdOffsets");
+    file.create_link("/VTKHDF/Steps/PointOffsets", "/VTKHDF/Steps/PointDataOffsets/velocity");
+    file.create_link("/VTKHDF/Steps/PointOffsets", "/VTKHDF/Steps/PointDataOffsets/contact_force");
+    file.create_link("/VTKHDF/Steps/CellDataOffsets/tension", "/VTKHDF/Steps/CellDataOffsets/strain");
+    file.create_link("/VTKHDF/Steps/CellDataOffsets/tension", "/VTKHDF/Steps/CellDataOffsets/active");
+    file.create_link("/VTKHDF/Steps/PartOffsets", "/VTKHDF/Steps/CellDataOffsets/part");
+  }
+  void append(double time, std::int64_t point_offset, std::int64_t cell_offset) {
+    times.append(time);
+    parts.append(1);
+    zeros.append(0);
+    topology.append(0);
+    points.append(point_offset);
+    cells.append(cell_offset);
+  }
+  Reals times;
+  Integers parts, zeros, topology, points, cells;
+};
+
+/// Nodes and elements, frame by frame.
+struct NetSeries {
+  NetSeries(h5::File& file, std::size_t nodes, std::size_t elements, bool compress)
+      : position(file, kPoints, rows_of(nodes, 3, 8, compress, "m")),
+        velocity(file, kVelocity, rows_of(nodes, 3, 8, compress, "m/s")),
+        contact_force(file, kContactForce, rows_of(nodes, 3, 8, compress, "N")),
+        tension(file, kTension, rows_of(elements, 1, 8, compress, "N")),
+        strain(file, kStrain, rows_of(elements, 1, 8, compress, "1")),
+        active(file, kActive, rows_of(elements, 1, 1, compress, "1")) {}
+  void append(const Frame& frame) {
+    position.append(flat(frame.position));
+    velocity.append(flat(frame.velocity));
+    contact_force.append(flat(frame.contact_force));
+    tension.append(frame.tension);
+    strain.append(frame.strain);
+    active.append(frame.active);
+  }
+  Reals position, velocity, contact_force, tension, strain;
+  Bytes active;
+};
+
+/// Rings, frame by frame: [frames, rings, 3].
+struct RingSeries {
+  RingSeries(h5::File& file, std::size_t rings, bool compress)
+      : center(file, kRingCenter, slabs(rings, compress, "m")),
+        normal(file, kRingNormal, slabs(rings, compress, "1")),
+        force(file, kRingForce, slabs(rings, compress, "N")) {}
+  static h5::SeriesLayout slabs(std::size_t rings, bool compress, const char* unit) {
+    return {{rings, 3}, chunk_rows(1, rings * 24, compress), compress, unit};
+  }
+  void append(const Frame& frame) {
+    center.append(flat(frame.ring_center));
+    normal.append(flat(frame.ring_normal));
+    force.append(flat(frame.ring_force));
+  }
+  Reals center, normal, force;
+};
+
+void remove_old_run(const std::filesystem::path& directory) {
+  for (const char* name : {kResultFile, kNetXdmfFile, kRingsXdmfFile, kBallsXdmfFile, kSummaryFile}) {
+    std::error_code error;
+    std::filesystem::remove(directory / name, error);
+    if (error) throw FileError((directory / name).string() + ": cannot remove it: " + error.message());
+  }
+}
+
+h5::File create_file(const std::filesystem::path& directory) {
+  std::error_code error;
+  std::filesystem::create_directories(directory, error);
+  if (error) throw FileError(directory.string() + ": cannot create the directory: " + error.message());
+  remove_old_run(directory);
+  return h5::File::create(directory / kResultFile);
+}
+
+void require_sizes(const Frame& frame, const ResultModel& model) {
+  const std::size_t nodes = model.node_mass.size(), elements = model.elements.size();
+  const std::size_t rings = model.rings.size();
+  const bool fits = frame.position.size() == nodes && frame.velocity.size() == nodes &&
+                    frame.contact_force.size() == nodes && frame.tension.size() == elements &&
+                    frame.strain.size() == elements && frame.active.size() == elements &&
+                    frame.ring_center.size() == rings && frame.ring_normal.size() == rings &&
+                    frame.ring_force.size() == rings;
+  if (!fits) throw Error(ExitCode::internal, "recorder: a frame does not have the model's sizes");
+}
+
+}  // namespace
+
+struct Recorder::Impl {
+  std::filesystem::path directory;
+  ResultModel model;
+  h5::File file;
+  StepTable steps;
+  h5::Counter frame_count;
+  NetSeries net;
+  Integers step_numbers;
+  std::vector<Reals> energy;
+  std::optional<RingSeries> rings;
+  std::optional<Reals> probe_times, probe_values;
+  std::optional<h5::Counter> probe_rows;
+  std::vector<double> times;                        // s, of all frames
+  std::vector<double> waiting_times, waiting_rows;  // probe rows not yet written
+  Clock::time_point last_xdmf;
+  bool finished = false;
+
+  Impl(const std::filesystem::path& folder, const ResultModel& description, bool compress);
+  void write_waiting_probes();
+  void commit();
+  void write_events(const std::vector<Event>& events);
+};
+
+Recorder::Impl::Impl(const std::filesystem::path& folder, const ResultModel& description, bool compress)
+    : directory(folder),
+      model(description),
+      file(create_file(folder)),
+      steps(file),
+      frame_count(file, kSteps, kFrameCount),
+      net(file, model.node_mass.size(), model.elements.size(), compress),
+      step_numbers(file, kStepNumbers, numbers()) {
+  write_model(file, model);
+  for (const std::string& term : Energies::names()) energy.emplace_back(file, kEnergy + term, numbers("J"));
+  if (!model.rings.empty()) rings.emplace(file, model.rings.size(), compress);
+  if (!model.probes.empty()) {
+    probe_times.emplace(file, kProbeTimes, numbers("s"));
+    probe_values.emplace(file, kProbeValues, h5::SeriesLayout{{model.probes.size()}, kScalarRows, false, ""});
+    probe_rows.emplace(file, kProbes, kRowCount);
+  }
+  file.flush();
+}
+
+void Recorder::Impl::write_waiting_probes() {
+  if (waiting_times.empty()) return;
+  probe_times->append(waiting_times);
+  probe_values->append(waiting_rows);
+  waiting_times.clear();
+  waiting_rows.clear();
+}
+
+// The counters rise only after everything they announce has been handed to the disk.
+void Recorder::Impl::commit() {
+  file.flush();
+  frame_count.set(static_cast<std::int64_t>(times.size()));
+  if (probe_rows) probe_rows->set(static_cast<std::int64_t>(probe_times->rows()));
+  file.flush();
+}
+
+void Recorder::Impl::write_events(const std::vector<Event>& events) {
+  std::vector<double> event_times;
+  std::vector<std::string> kinds, names;
+  for (const Event& event : events) {
+    event_times.push_back(event.time);
+    kinds.push_back(event.kind);
+    names.push_back(event.name);
+  }
+  const std::string group = kEvents;
+  file.write<double>(group + "/time", event_times, {event_times.size()}, "s");
+  file.write_texts(group + "/kind", kinds);
+  file.write_texts(group + "/name", names);
+}
+
+Recorder::Recorder(const std::filesystem::path& directory, const ResultModel& model, bool compress)
+    : impl_(std::make_unique<Impl>(directory, model, compress)) {}
+Recorder::Recorder(Recorder&&) noexcept = default;
+Recorder& Recorder::operator=(Recorder&&) noexcept = default;
+
+Recorder::~Recorder() {
+  if (!impl_ || impl_->finished) return;
+  try {
+    impl_->write_waiting_probes();
+    impl_->commit();
+    write_xdmf(impl_->directory, impl_->model, impl_->times);
+  } catch (const std::exception&) {  // what was committed before stays readable
+  }
+}
+
+void Recorder::frame(const Frame& frame) {
+  Impl& run = *impl_;
+  require_sizes(frame, run.model);
+  if (run.finished) throw Error(ExitCode::internal, "recorder: a frame after the end");
+  const auto k = static_cast<std::int64_t>(run.times.size());
+  run.steps.append(frame.time, k * static_cast<std::int64_t>(run.model.node_mass.size()),
+                   k * static_cast<std::int64_t>(run.model.elements.size()));
+  run.net.append(frame);
+  run.step_numbers.append(frame.step);
+  const auto energies = frame.energy.values();
+  for (std::size_t i = 0; i < energies.size(); ++i) run.energy[i].append(energies[i]);
+  if (run.rings) run.rings->append(frame);
+  run.write_waiting_probes();
+  run.times.push_back(frame.time);
+  run.commit();
+
+  const auto now = Clock::now();
+  if (k == 0 || now - run.last_xdmf > kXdmfInterval) {
+    write_xdmf(run.directory, run.model, run.times);
+    run.last_xdmf = now;
+  }
+}
+
+void Recorder::probes(double time, std::span<const double> values) {
+  Impl& run = *impl_;
+  if (values.size() != run.model.probes.size()) {
+    throw Error(ExitCode::internal, "recorder: a probe row does not have the model's columns");
+  }
+  if (values.empty()) return;
+  run.waiting_times.push_back(time);
+  run.waiting_rows.insert(run.waiting_rows.end(), values.begin(), values.end());
+}
+
+void Recorder::finish(const Summary& summary) {
+  Impl& run = *impl_;
+  if (run.finished) throw Error(ExitCode::internal, "recorder: finished twice");
+  const std::string json = summary_to_json(summary);
+  run.write_waiting_probes();
+  run.write_events(summary.events);
+  run.file.write_text(kSummary, json);
+  run.commit();
+  run.finished = true;
+  write_xdmf(run.directory, run.model, run.times);
+  replace_text_file(run.directory / kSummaryFile, json);
+}
+
+int Recorder::frames() const { return static_cast<int>(impl_->times.size()); }
+const std::filesystem::path& Recorder::directory() const { return impl_->directory; }
+
+}  // namespace cinch
