@@ -1,0 +1,45 @@
+// The plots of a report: the paper's figures for the case, and those that every case has.
+#pragma once
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "report/digest.hpp"
+
+namespace cinch {
+
+struct Curve {
+  std::string label;
+  Series points;              ///< x in t, y in v
+  std::string style = "line"; ///< "line", "dash", "points", "reference" (the paper's or the limit's value)
+  int colour = 0;             ///< number in the page's palette
+};
+
+/// A moment worth a vertical line.
+struct Mark {
+  double at = 0;
+  std::string label;
+};
+
+struct Plot {
+  std::string title;
+  std::string source;         ///< the paper's figure, or empty
+  std::string x, y;           ///< axis titles with units
+  std::vector<Curve> curves;
+  std::vector<Mark> marks;
+  std::string note;           ///< what is missing, what to look at
+  bool equal_axes = false;    ///< a path: the same scale along x and y
+  bool from_zero = false;     ///< y axis begins at 0
+  std::optional<double> from = std::nullopt; ///< curves are shown from this abscissa on
+};
+
+/// Plots of the paper's figures for the case of the first result.
+std::vector<Plot> figure_plots(const std::vector<Digest>& results);
+
+/// Energy ledger, its residual, greatest tension of the first result.
+std::vector<Plot> energy_plots(const Digest& result);
+
+/// The plots as JSON for page.js: curves thinned, six significant digits.
+std::string plots_json(const std::vector<Plot>& plots);
+
+}  // namespace cinch

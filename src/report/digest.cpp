@@ -1,0 +1,244 @@
+#include "report/digest.hpp"
+
+#include <algorithm>
+#include <cctype>
+#include <cstdio>
+#include <filesystem>
+#include <map>
+#include <regex>
+
+#include "plan/mouth.hpp"
+
+namespace cinch {
+namespace {
+
+bool starts_with(const std::string& text, const std::string& start) { return text.rfind(start, 0) == 0; }
+
+bool ends_with(const std::string& text, const std::string& end) {
+  return text.size() >= end.size() && text.compare(text.size() - end.size(), end.size(), end) == 0;
+}
+
+/// The columns of one probe: a scalar, or the components x, y, z.
+struct Columns {
+  std::string scalar;
+  std::array<std::string, 3> part;
+  bool vector() const { return !part[0].empty() && !part[1].empty() && !part[2].empty(); }
+};
+
+// -1: a scalar; else 0, 1, 2 for names that end in .x, .y, .z.
+int component_of(const std::string& name) {
+  if (name.size() < 2 || name[name.size() - 2] != '.') return -1;
+  const auto axis = std::string("xyz").find(name.back());
+  return axis == std::string::npos ? -1 : static_cast<int>(axis);
+}
+
+Columns find_columns(const ResultModel& model, const std::string& quantity, const std::vector<std::string>& of) {
+  Columns found;
+  for (const auto& column : model.probes) {
+    const bool same = column.quantity == quantity || starts_with(column.quantity, quantity + ".");
+    if (!same || std::find(of.begin(), of.end(), column.of) == of.end()) continue;
+    const int axis = component_of(column.name);
+    (axis < 0 ? found.scalar : found.part[static_cast<std::size_t>(axis)]) = column.name;
+  }
+  return found;
+}
+
+void take_vector(const Result& result, const std::string& quantity, const std::vector<std::string>& of,
+                 VectorSeries& into) {
+  const Columns columns = find_columns(result.model(), quantity, of);
+  if (!columns.vector()) return;
+  const auto x = result.probe(columns.part[0]), y = result.probe(columns.part[1]), z = result.probe(columns.part[2]);
+  if (x.empty()) return;
+  into = {result.probe_times(), {}, "probe"};
+  for (std::size_t i = 0; i < x.size(); ++i) into.v.emplace_back(x[i], y[i], z[i]);
+}
+
+// A displacement counts from the first frame's position.
+void take_displacement(const Result& result, const std::vector<std::string>& of, VectorSeries& into) {
+  if (into.empty()) return;
+  const Vec3 start = into.v.front();
+  VectorSeries moved;
+  take_vector(result, "displacement", of, moved);
+  if (moved.empty()) return;
+  for (Vec3& value : moved.v) value += start;
+  into = std::move(moved);
+}
+
+void take_scalar(const Result& result, const std::string& quantity, Series& into) {
+  for (const auto& column : result.model().probes) {
+    if (column.quantity != quantity) continue;
+    Series series{result.probe_times(), result.probe(column.name)};
+    if (!series.empty()) into = std::move(series);
+    return;
+  }
+}
+
+void append(VectorSeries& series, double time, const Vec3& value) {
+  series.t.push_back(time);
+  series.v.push_back(value);
+}
+
+void append(Series& series, double time, double value) {
+  series.t.push_back(time);
+  series.v.push_back(value);
+}
+
+void add_frame(const Frame& frame, Digest& d) {
+  for (std::size_t r = 0; r < d.model.rings.size(); ++r) {
+    append(d.ring_position[r], frame.time, frame.ring_center[r]);
+    append(d.ring_force[r], frame.time, frame.ring_force[r]);
+  }
+  for (std::size_t m = 0; m < d.model.masses.size(); ++m) {
+    const auto node = static_cast<std::size_t>(d.model.masses[m].node);
+    append(d.mass_position[m], frame.time, frame.position[node]);
+    append(d.mass_velocity[m], frame.time, frame.velocity[node]);
+  }
+  if (d.model.rings.size() >= 2) append(d.mouth_spread, frame.time, mouth_spread(frame.ring_center));
+  if (d.model.rings.size() >= 3) append(d.mouth_area, frame.time, mouth_area(frame.ring_center));
+  double tension = 0;
+  for (const double value : frame.tension) tension = std::max(tension, value);
+  append(d.peak_tension, frame.time, tension);
+}
+
+void read_frames(const Result& result, Digest& d) {
+  d.ring_position.assign(d.model.rings.size(), {{}, {}, "frames"});
+  d.ring_force = d.ring_position;
+  d.mass_position.assign(d.model.masses.size(), {{}, {}, "frames"});
+  d.mass_velocity = d.mass_position;
+  for (int k = 0; k < result.frames(); ++k) {
+    const Frame frame = result.frame(k);
+    if (k == 0)
+      for (const Vec3& v : frame.velocity) d.start_speed = std::max(d.start_speed, v.norm());
+    add_frame(frame, d);
+  }
+}
+
+// A probe is finer in time than the frames and takes their place.
+void read_probes(const Result& result, Digest& d) {
+  for (std::size_t r = 0; r < d.model.rings.size(); ++r) {
+    const std::vector<std::string> of{"ring." + d.model.rings[r].name, d.model.rings[r].name};
+    take_displacement(result, of, d.ring_position[r]);
+    take_vector(result, "position", of, d.ring_position[r]);
+    take_vector(result, "force", of, d.ring_force[r]);
+  }
+  for (std::size_t m = 0; m < d.model.masses.size(); ++m) {
+    take_displacement(result, {d.model.masses[m].name}, d.mass_position[m]);
+    take_vector(result, "position", {d.model.masses[m].name}, d.mass_position[m]);
+    take_vector(result, "velocity", {d.model.masses[m].name}, d.mass_velocity[m]);
+  }
+  take_scalar(result, "mouth_area", d.mouth_area);
+  take_scalar(result, "mouth_spread", d.mouth_spread);
+}
+
+// Of the resolved case: [gravity] acceleration_m_s2 = [x, y, z].
+std::optional<Vec3> gravity_in(const std::string& toml) {
+  static const std::regex line(R"(acceleration_m_s2\s*=\s*\[\s*([-+.\deE]+)\s*,\s*([-+.\deE]+)\s*,\s*([-+.\deE]+)\s*,?\s*\])");
+  const auto place = toml.find("acceleration_m_s2");
+  if (place == std::string::npos) return std::nullopt;
+  const std::string rest = toml.substr(place, 200);
+  std::smatch match;
+  if (!std::regex_search(rest, match, line)) return std::nullopt;
+  const Vec3 g(std::stod(match[1]), std::stod(match[2]), std::stod(match[3]));
+  return g.norm() > 0 ? std::optional<Vec3>(g) : std::nullopt;
+}
+
+bool has_part(const ResultModel& model, const std::string& kind, bool closing) {
+  return std::any_of(model.parts.begin(), model.parts.end(),
+                     [&](const auto& part) { return part.kind == kind && part.closing == closing; });
+}
+
+}  // namespace
+
+PaperCase recognise(const ResultModel& model) {
+  if (starts_with(model.case_name, "ring_pull")) return PaperCase::ring_pull;
+  if (starts_with(model.case_name, "edge_closure")) return PaperCase::edge_closure;
+  if (starts_with(model.case_name, "capture")) return PaperCase::capture;
+  if (starts_with(model.case_name, "large")) return PaperCase::none;
+  const bool net = has_part(model, "net", false), small = model.node_mass.size() < 5000;
+  if (!net && model.rings.size() == 1 && model.masses.size() == 1) return PaperCase::ring_pull;
+  if (net && model.rings.size() == 4 && model.balls.empty() && model.masses.size() == 2 && small)
+    return PaperCase::edge_closure;
+  if (net && model.rings.size() == 16 && model.balls.size() == 1 && model.closing_time && small)
+    return PaperCase::capture;
+  return PaperCase::none;
+}
+
+int Digest::mass(const std::string& name) const {
+  for (std::size_t m = 0; m < model.masses.size(); ++m)
+    if (model.masses[m].name == name || ends_with(model.masses[m].name, "." + name)) return static_cast<int>(m);
+  return -1;
+}
+
+int Digest::ring(const std::string& name) const {
+  for (std::size_t r = 0; r < model.rings.size(); ++r) {
+    std::string digits = model.rings[r].name;
+    if (digits == name) return static_cast<int>(r);
+    digits.erase(digits.begin(), std::find_if(digits.begin(), digits.end(), [](char c) { return c >= '1' && c <= '9'; }));
+    if (!digits.empty() && digits == name) return static_cast<int>(r);
+  }
+  return -1;
+}
+
+const RingRecord* Digest::record(int ring) const {
+  if (!summary || ring < 0) return nullptr;
+  const std::string& name = model.rings[static_cast<std::size_t>(ring)].name;
+  for (const RingRecord& entry : summary->ring_records)
+    if (entry.name == name) return &entry;
+  return nullptr;
+}
+
+std::optional<double> Digest::first_event(const std::string& kind) const {
+  if (!summary) return std::nullopt;
+  std::optional<double> first;
+  for (const Event& event : summary->events)
+    if (event.kind == kind && (!first || event.time < *first)) first = event.time;
+  return first;
+}
+
+int Digest::thread_elements() const {
+  std::vector<int> count(model.parts.size(), 0);
+  for (const int part : model.element_part) ++count[static_cast<std::size_t>(part)];
+  int most = 0;
+  for (std::size_t p = 0; p < count.size(); ++p)
+    if (model.parts[p].kind == "thread") most = std::max(most, count[p]);
+  return most;
+}
+
+std::string Digest::label() const {
+  if (!own_label.empty()) return own_label;
+  if (paper_case == PaperCase::ring_pull) return std::to_string(thread_elements()) + " elements";
+  if (paper_case == PaperCase::capture && model.closing_time) {
+    char text[48];
+    std::snprintf(text, sizeof text, "closing at %.3g s", *model.closing_time);
+    return text;
+  }
+  return model.case_name;
+}
+
+Digest digest(const Result& result) {
+  Digest d;
+  d.model = result.model();
+  d.summary = result.summary();
+  d.file = std::filesystem::absolute(result.path()).string();
+  d.paper_case = recognise(d.model);
+  d.frame_times = result.frame_times();
+  d.energies = result.energies();
+  d.gravity = gravity_in(d.model.case_toml);
+  read_frames(result, d);
+  read_probes(result, d);
+  return d;
+}
+
+std::vector<Digest> digest_all(const std::vector<Result>& results) {
+  std::vector<Digest> all;
+  std::map<std::string, int> uses;
+  for (const Result& result : results) {
+    all.push_back(digest(result));
+    ++uses[all.back().label()];
+  }
+  for (Digest& d : all)
+    if (uses[d.label()] > 1) d.own_label = std::filesystem::path(d.file).parent_path().filename().string();
+  return all;
+}
+
+}  // namespace cinch

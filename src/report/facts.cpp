@@ -1,0 +1,92 @@
+#include "report/facts.hpp"
+
+#include <cstdio>
+
+#include "report/html.hpp"
+#include "report/paper_numbers.hpp"
+
+namespace cinch {
+namespace {
+
+const char* name_of(PaperCase which) {
+  switch (which) {
+    case PaperCase::ring_pull: return "ring_pull";
+    case PaperCase::edge_closure: return "edge_closure";
+    case PaperCase::capture: return "capture";
+    default: return "";
+  }
+}
+
+Fact number(const char* what, double value, const char* unit, std::string aside = "") {
+  return {what, value, unit, "", std::move(aside)};
+}
+
+Fact words(const char* what, std::string text, std::string aside = "") {
+  return {what, 0, "", std::move(text), std::move(aside)};
+}
+
+std::string printed(const char* format, double value) {
+  char text[64];
+  std::snprintf(text, sizeof text, format, value);
+  return text;
+}
+
+// The paper's cost for as many simulated seconds beside ours.
+void add_cost(const Digest& d, const Summary& s, std::vector<Fact>& facts) {
+  facts.push_back(words("wall time", html::duration(s.wall_seconds)));
+  facts.push_back(number("a simulated second takes", s.minutes_per_simulated_second(), "min"));
+  const auto cost = paper_cost(name_of(d.paper_case), d.thread_elements());
+  if (!cost) return;
+  const double paper = cost->minutes / cost->simulated_seconds;
+  Fact fact = number("... in the paper", paper, "min",
+                     std::string(cost->source) + ": " + printed("%.4g min", cost->minutes) + " for " +
+                         printed("%.3g s", cost->simulated_seconds) + ", Core i7-6700HQ, step 1 µs");
+  if (s.minutes_per_simulated_second() > 0)
+    fact.aside += printed("; here %.3g times less, on another machine", paper / s.minutes_per_simulated_second());
+  facts.push_back(fact);
+}
+
+// 1 000 000
+std::string grouped(long long value) {
+  std::string text = std::to_string(value);
+  for (std::size_t i = text.size(); i > 3; i -= 3) text.insert(i - 3, "\u202f");
+  return text;
+}
+
+std::string sizes(const Summary& s) {
+  return grouped(s.nodes) + " nodes, " + grouped(s.elements) + " elements, " + std::to_string(s.rings) +
+         (s.rings == 1 ? " ring" : " rings");
+}
+
+}  // namespace
+
+std::string status_of(const Digest& d) {
+  if (!d.summary) return "unfinished: the run left no summary; what it recorded is shown";
+  return d.summary->message.empty() ? d.summary->status : d.summary->status + ": " + d.summary->message;
+}
+
+std::vector<Fact> facts_of(const Digest& d) {
+  std::vector<Fact> facts{words("status", status_of(d))};
+  if (!d.summary) {
+    facts.push_back(words("recorded", std::to_string(d.frame_times.size()) + " frames until " +
+                                          printed("%.4g s", d.end_time())));
+    facts.push_back(words("version", d.model.version, d.model.commit));
+    return facts;
+  }
+  const Summary& s = *d.summary;
+  facts.push_back(number("energy residual", 100 * s.relative_residual, "%", "over the larger of initial energy and work put in"));
+  facts.push_back(number("momentum drift", s.linear_momentum_drift, "kg m/s", "linear"));
+  if (s.angular_momentum_drift)
+    facts.push_back(number("... angular", *s.angular_momentum_drift, "kg m²/s"));
+  facts.push_back(number("largest penetration", s.max_penetration * 1e3, "mm"));
+  facts.push_back(number("simulated", s.simulated_seconds, "s", grouped(s.steps) + " steps"));
+  facts.push_back(number("step", s.time_step * 1e6, "µs"));
+  facts.push_back(number("stable step", s.stable_step * 1e6, "µs", "limited by " + s.stable_step_limited_by));
+  add_cost(d, s, facts);
+  facts.push_back(words("model", sizes(s)));
+  facts.push_back(words("threads", std::to_string(s.threads), s.isa + ", " + s.host));
+  facts.push_back(words("version", s.version, s.commit + ", " + s.compiler));
+  return facts;
+}
+
+}  // namespace cinch

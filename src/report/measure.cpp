@@ -1,0 +1,137 @@
+#include "report/measure.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace cinch::measure {
+namespace {
+
+std::size_t at(int i) { return static_cast<std::size_t>(i); }
+
+Measured missing(const std::string& what) { return {std::nullopt, what}; }
+
+Measured past_the_end(const Digest& d, double time) {
+  return missing("the run ends at " + std::to_string(d.end_time()).substr(0, 5) + " s, before " +
+                 std::to_string(time).substr(0, 4) + " s");
+}
+
+bool reaches(const Digest& d, double time) { return d.end_time() >= time - 1e-6; }
+
+const Digest* with_elements(const Results& results, int elements) {
+  for (const Digest* d : results)
+    if (d->thread_elements() == elements) return d;
+  return nullptr;
+}
+
+Results by_elements(Results results) {
+  std::sort(results.begin(), results.end(),
+            [](const Digest* a, const Digest* b) { return a->thread_elements() < b->thread_elements(); });
+  return results;
+}
+
+}  // namespace
+
+Measured ball_ahead_of_ring(const Digest& d) {
+  if (d.mass_position.empty() || d.ring_position.empty()) return missing("no ball or no ring in this result");
+  return {d.mass_position[0].component(1).at(d.end_time()) - d.ring_position[0].component(1).at(d.end_time()), ""};
+}
+
+Measured ring_end_speed(const Digest& d) {
+  if (d.ring_position.empty() || d.frame_times.size() < 2) return missing("no ring or a single frame");
+  const double end = d.end_time(), span = 0.1 * end;
+  const Series y = d.ring_position[0].component(1);
+  return {(y.at(end) - y.at(end - span)) / span, ""};
+}
+
+Measured peak_ring_force(const Digest& d) {
+  double peak = 0;
+  bool every_step = false;
+  for (int r = 0; r < static_cast<int>(d.model.rings.size()); ++r)
+    if (const RingRecord* record = d.record(r)) {
+      peak = std::max(peak, record->peak_force);
+      every_step = true;
+    }
+  if (every_step) return {peak, ""};
+  for (const VectorSeries& force : d.ring_force)
+    for (const Vec3& f : force.v) peak = std::max(peak, f.norm());
+  if (d.ring_force.empty() || d.ring_force[0].empty()) return missing("no ring force recorded");
+  return {peak, "from " + d.ring_force[0].source + " only: the true peak may be higher"};
+}
+
+Measured greatest_force_rise(const Results& results) {
+  const Results sorted = by_elements(results);
+  std::optional<double> rise;
+  for (std::size_t i = 1; i < sorted.size(); ++i) {
+    const auto before = peak_ring_force(*sorted[i - 1]).value, after = peak_ring_force(*sorted[i]).value;
+    if (before && after && sorted[i - 1]->thread_elements() < sorted[i]->thread_elements())
+      rise = std::max(rise.value_or(-std::numeric_limits<double>::infinity()), *after - *before);
+  }
+  return {rise, ""};
+}
+
+Measured curves_apart(const Results& results, int fewer, int more) {
+  const Digest *a = with_elements(results, fewer), *b = with_elements(results, more);
+  if (!a || !b) return missing("needs results of " + std::to_string(fewer) + " and " + std::to_string(more) + " elements");
+  const Series ya = a->ring_position.at(0).component(1), yb = b->ring_position.at(0).component(1);
+  double apart = 0;
+  for (const double t : a->frame_times)
+    if (t <= b->end_time()) apart = std::max(apart, std::abs(ya.at(t) - yb.at(t)));
+  return {apart, ""};
+}
+
+Measured beyond(const Digest& d, const Results& results, int reference) {
+  const Digest* other = with_elements(results, reference);
+  if (!other) return missing("needs a result of " + std::to_string(reference) + " elements");
+  const double t = std::min(d.end_time(), other->end_time());
+  return {d.ring_position.at(0).component(1).at(t) - other->ring_position.at(0).component(1).at(t), ""};
+}
+
+Measured ring_at(const Digest& d, int ring, int axis, double time) {
+  if (d.ring_position.size() <= at(ring)) return missing("no ring in this result");
+  if (!reaches(d, time)) return past_the_end(d, time);
+  return {d.ring_position[at(ring)].component(axis).at(time), ""};
+}
+
+Measured mass_at(const Digest& d, int mass, int axis, double time) {
+  if (d.mass_position.size() <= at(mass)) return missing("no ball in this result");
+  if (!reaches(d, time)) return past_the_end(d, time);
+  return {d.mass_position[at(mass)].component(axis).at(time), ""};
+}
+
+Measured start_speed(const Digest& d) {
+  if (d.frame_times.empty()) return missing("no frames");
+  return {d.start_speed, ""};
+}
+
+Measured spread_at(const Digest& d, double time) {
+  if (d.mouth_spread.empty()) return missing("fewer than two rings");
+  if (!reaches(d, time)) return past_the_end(d, time);
+  return {d.mouth_spread.at(time), ""};
+}
+
+std::optional<std::array<int, 2>> left_and_right(const Digest& d) {
+  if (d.mass_position.size() != 2 || d.ring_position.empty() || d.mass_position[0].empty()) return std::nullopt;
+  const auto named = [&](int m, const char* word) { return d.model.masses[at(m)].name.find(word) != std::string::npos; };
+  if (named(0, "left") || named(1, "right")) return std::array{0, 1};
+  if (named(1, "left") || named(0, "right")) return std::array{1, 0};
+  Vec3 centre = Vec3::Zero();
+  for (const VectorSeries& ring : d.ring_position) centre += ring.v.front() / static_cast<double>(d.ring_position.size());
+  const double first = (d.mass_position[0].v.front() - centre).norm(), second = (d.mass_position[1].v.front() - centre).norm();
+  return first <= second ? std::array{0, 1} : std::array{1, 0};
+}
+
+Measured left_above_right(const Digest& d, double time) {
+  const auto pair = left_and_right(d);
+  if (!pair) return missing("needs two named masses and rings");
+  if (!reaches(d, time)) return past_the_end(d, time);
+  if (!d.gravity) return missing("no gravity in the resolved case");
+  const Vec3 up = -d.gravity->normalized();
+  double height[2] = {0, 0};
+  for (std::size_t side = 0; side < 2; ++side)
+    for (int axis = 0; axis < 3; ++axis)
+      height[side] += up[axis] * d.mass_position[at((*pair)[side])].component(axis).at(time);
+  return {height[0] - height[1], ""};
+}
+
+}  // namespace cinch::measure

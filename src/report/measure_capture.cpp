@@ -1,0 +1,165 @@
+// Measurements of the net's closure, paper Sec. 5.3.
+#include <algorithm>
+#include <cmath>
+
+#include "report/measure.hpp"
+
+namespace cinch::measure {
+namespace {
+
+constexpr double kAfter = 0.1;  // s: "until 1.6 s" for a closing time of 1.5 s
+
+std::size_t at(int i) { return static_cast<std::size_t>(i); }
+
+Measured missing(const std::string& what) { return {std::nullopt, what}; }
+
+Measured no_event(const Digest& d, const std::string& what) {
+  if (!d.summary) return missing("the run left no summary");
+  return missing(what + " until " + std::to_string(d.end_time()).substr(0, 5) + " s");
+}
+
+// A sample this near the closing time counts neither as before nor as after.
+double slack(const Digest& d) { return 1.5 * std::max(d.model.time_step, 1e-9); }
+
+Series velocity(const Digest& d, int mass, int axis) { return d.mass_velocity[at(mass)].component(axis); }
+
+// The first sample after the separation.
+double just_after(const Series& series, double closing, double slack) {
+  const auto next = std::upper_bound(series.t.begin(), series.t.end(), closing + slack);
+  return next == series.t.end() ? std::nan("") : series.v[at(static_cast<int>(next - series.t.begin()))];
+}
+
+std::string sampling(const Digest& d, int mass) {
+  const VectorSeries& series = d.mass_velocity[at(mass)];
+  return series.source == "probe" ? "" : "from frames only: coarse in time";
+}
+
+}  // namespace
+
+std::optional<std::array<int, 2>> split_masses(const Digest& d) {
+  for (const char* mechanism : {"mechanism.m1", "mechanism.1", "m1", "1"}) {
+    const int a = d.mass(std::string(mechanism) + ".a"), b = d.mass(std::string(mechanism) + ".b");
+    if (a >= 0 && b >= 0) return std::array{a, b};
+  }
+  return std::nullopt;
+}
+
+Measured first_touch(const Digest& d) {
+  const auto time = d.first_event("target_contact");
+  return time ? Measured{time, ""} : no_event(d, "nothing touched the target");
+}
+
+Measured closed_after(const Digest& d) {
+  const auto time = d.first_event("mouth_closed");
+  if (!d.model.closing_time) return missing("nothing closes in this case");
+  if (time) return {*time - *d.model.closing_time, ""};
+  return no_event(d, "the mouth did not close");
+}
+
+Measured enclosed(const Digest& d) {
+  if (!d.summary) return missing("the run left no summary");
+  return {d.first_event("target_enclosed") ? 1.0 : 0.0, ""};
+}
+
+Measured separation_jump(const Digest& d, int axis) {
+  const auto pair = split_masses(d);
+  if (!pair || !d.model.closing_time) return missing("no split masses of mechanism 1 in this result");
+  double size[2] = {0, 0};
+  for (std::size_t side = 0; side < 2; ++side) {
+    const auto jump = velocity(d, (*pair)[side], axis).jump_at(*d.model.closing_time, slack(d));
+    if (!jump) return missing("no samples on both sides of the closing time");
+    size[side] = std::abs(*jump);
+  }
+  return {axis == 2 ? std::max(size[0], size[1]) : (size[0] + size[1]) / 2, sampling(d, (*pair)[0])};
+}
+
+Measured share_lost(const Digest& d, int axis) {
+  const auto pair = split_masses(d);
+  if (!pair || !d.model.closing_time) return missing("no split masses of mechanism 1 in this result");
+  if (d.end_time() < *d.model.closing_time + kAfter - 1e-6) return missing("the run ends too early");
+  const Series v = velocity(d, (*pair)[0], axis);
+  const double start = just_after(v, *d.model.closing_time, slack(d)), end = v.at(*d.model.closing_time + kAfter);
+  if (!(std::abs(start) > 0)) return missing("no velocity to lose");
+  return {1 - end / start, sampling(d, (*pair)[0])};
+}
+
+Measured y_change_over_x(const Digest& d) {
+  const auto pair = split_masses(d);
+  if (!pair || !d.model.closing_time) return missing("no split masses of mechanism 1 in this result");
+  const double closing = *d.model.closing_time;
+  if (d.end_time() < closing + kAfter - 1e-6) return missing("the run ends too early");
+  double change[2] = {0, 0};
+  for (int axis = 0; axis < 2; ++axis) {
+    const Series v = velocity(d, (*pair)[0], axis);
+    change[axis] = std::abs(v.at(closing + kAfter) - just_after(v, closing, slack(d)));
+  }
+  if (!(change[0] > 0)) return missing("its X velocity does not change");
+  return {change[1] / change[0], sampling(d, (*pair)[0])};
+}
+
+Measured turns_positive_after(const Digest& d) {
+  const auto pair = split_masses(d);
+  if (!pair || !d.model.closing_time) return missing("no split masses of mechanism 1 in this result");
+  const auto turn = velocity(d, (*pair)[0], 0).rises_through(0, *d.model.closing_time + slack(d));
+  if (!turn) return no_event(d, "it did not turn");
+  return {*turn - *d.model.closing_time, ""};
+}
+
+Measured mirror_departure(const Digest& d) {
+  const auto pair = split_masses(d);
+  if (!pair || !d.model.closing_time) return missing("no split masses of mechanism 1 in this result");
+  const VectorSeries &a = d.mass_velocity[at((*pair)[0])], &b = d.mass_velocity[at((*pair)[1])];
+  double most = 0;
+  for (std::size_t i = 0; i < std::min(a.t.size(), b.t.size()); ++i) {
+    const double after = a.t[i] - *d.model.closing_time;
+    if (after <= slack(d) || after > kAfter) continue;
+    const Vec3 off(b.v[i].x() + a.v[i].y(), b.v[i].y() + a.v[i].x(), b.v[i].z() - a.v[i].z());
+    most = std::max(most, off.cwiseAbs().maxCoeff());
+  }
+  return {most, ""};
+}
+
+Measured first_collision_time(const Digest& d, const std::string& ring) {
+  const RingRecord* record = d.record(d.ring(ring));
+  if (!record || !d.model.closing_time) return missing("no record of ring " + ring);
+  if (record->first_contact_time < 0) return no_event(d, "ring " + ring + " was never touched");
+  return {record->first_contact_time - *d.model.closing_time, ""};
+}
+
+Measured first_collision_force(const Digest& d, const std::string& ring) {
+  const RingRecord* record = d.record(d.ring(ring));
+  if (!record) return missing("no record of ring " + ring);
+  if (record->first_contact_time < 0) return no_event(d, "ring " + ring + " was never touched");
+  return {record->first_contact_force, ""};
+}
+
+Measured peak_force_time(const Digest& d, const std::string& ring) {
+  const RingRecord* record = d.record(d.ring(ring));
+  if (!record || !d.model.closing_time) return missing("no record of ring " + ring);
+  if (record->peak_time < 0) return no_event(d, "ring " + ring + " was never touched");
+  char height[48];
+  std::snprintf(height, sizeof height, "here %.3g N high", record->peak_force);
+  return {record->peak_time - *d.model.closing_time, height};
+}
+
+Measured least_gain_along_z(const Results& results) {
+  std::vector<std::pair<double, double>> reach;  // closing time, mean Z of mechanism 1's split masses 0.4 s later
+  for (const Digest* d : results) {
+    const auto pair = split_masses(*d);
+    if (!pair || !d->model.closing_time || d->end_time() < *d->model.closing_time + 0.4 - 1e-6) continue;
+    const double time = *d->model.closing_time + 0.4;
+    double z = 0;
+    for (const int m : *pair) z += d->mass_position[at(m)].component(2).at(time) / 2;
+    reach.emplace_back(*d->model.closing_time, z);
+  }
+  std::sort(reach.begin(), reach.end());
+  std::optional<double> least;
+  for (std::size_t i = 1; i < reach.size(); ++i)
+    if (reach[i].first > reach[i - 1].first) {
+      const double gain = reach[i].second - reach[i - 1].second;
+      least = std::min(least.value_or(gain), gain);
+    }
+  return {least, ""};
+}
+
+}  // namespace cinch::measure

@@ -1,0 +1,210 @@
+#include "report/verdict.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "report/html.hpp"
+#include "report/measure.hpp"
+
+namespace cinch {
+namespace {
+
+bool holds(const PaperNumber& paper, double here) {
+  const double rounding = 1e-9 * std::max(1.0, std::abs(paper.value));
+  switch (paper.rule) {
+    case Rule::at_most: return here <= paper.value + rounding;
+    case Rule::at_least: return here >= paper.value - rounding;
+    default: return std::abs(here - paper.value) <= paper.tolerance + rounding;
+  }
+}
+
+bool range_allows(const PaperNumber& paper, const OpenRange& range) {
+  if (paper.rule == Rule::near) return range.low - paper.tolerance <= paper.value && paper.value <= range.high + paper.tolerance;
+  return holds(paper, range.low) || holds(paper, range.high);
+}
+
+std::string joined(std::string first, const std::string& second) {
+  if (first.empty()) return second;
+  return second.empty() ? first : first + "; " + second;
+}
+
+/// Fills the table row by row.
+class Table {
+ public:
+  Table(const Sensitivity& sensitivity, bool several) : sensitivity_(sensitivity), several_(several) {}
+
+  void row(const std::string& key, const Measured& measured, const Digest* of = nullptr) {
+    VerdictRow row;
+    row.paper = &paper_number(key);
+    row.note = joined(std::string(row.paper->note), measured.note);
+    if (several_ && of) row.result = of->label();
+    const auto range = sensitivity_.find(key);
+    const bool known = range != sensitivity_.end();
+    if (known) row.note = joined(row.note, range->second.note);
+    if (measured.value && std::isfinite(*measured.value)) {
+      row.here = measured.value;
+      row.verdict = judge(*row.paper, *row.here, known ? &range->second : nullptr);
+    }
+    rows.push_back(std::move(row));
+  }
+
+  std::vector<VerdictRow> rows;
+
+ private:
+  const Sensitivity& sensitivity_;
+  bool several_;
+};
+
+using Results = std::vector<const Digest*>;
+
+Results by_elements(Results results) {
+  std::stable_sort(results.begin(), results.end(),
+                   [](const Digest* a, const Digest* b) { return a->thread_elements() < b->thread_elements(); });
+  return results;
+}
+
+// The least value over all results: one row says that every one of them passes.
+template <class Measure>
+Measured least_of(const Results& results, Measure measure) {
+  Measured least;
+  for (const Digest* d : results) {
+    const Measured one = measure(*d);
+    if (!one.value) return one;
+    if (!least.value || *one.value < *least.value) least = one;
+  }
+  if (results.size() > 1) least.note = joined(least.note, "least of " + std::to_string(results.size()) + " results");
+  return least;
+}
+
+void ring_pull_forces(const Results& results, Table& table) {
+  for (const Digest* d : results) {
+    const int n = d->thread_elements();
+    if (n == 50 || n == 100 || n == 200 || n == 300)
+      table.row("ring_pull.force_" + std::to_string(n), measure::peak_ring_force(*d), d);
+  }
+  table.row("ring_pull.force_falls", measure::greatest_force_rise(results));
+}
+
+std::string listed(const Digest& d, double value, const PaperNumber& paper) {
+  return d.label() + ": " + html::plain(value, paper.unit);
+}
+
+// The finest result stands in the row. Results that come nearer to the limit as elements are added converge, even if
+// the finest has not arrived.
+template <class Measure>
+void limit_row(const Results& results, const std::string& key, Table& table, Measure measure) {
+  const PaperNumber& paper = paper_number(key);
+  Measured finest;
+  bool nearer = results.size() > 1;
+  std::string others;
+  double last = 0;
+  for (const Digest* d : results) {
+    const Measured one = measure(*d);
+    if (one.value && d != results.back()) others = joined(others, listed(*d, *one.value, paper));
+    const double off = one.value ? std::abs(*one.value - paper.value) : 0;
+    nearer = nearer && one.value && (d == results.front() || off < last || off <= paper.tolerance);
+    last = off;
+    finest = one;
+  }
+  finest.note = joined(finest.note, others);
+  table.row(key, finest, results.back());
+  if (nearer) table.rows.back().verdict = Verdict::converges;
+}
+
+void ring_pull_limits(const Results& results, Table& table) {
+  const auto ball = [](int axis) { return [axis](const Digest& d) { return measure::mass_at(d, 0, axis, 1.0); }; };
+  limit_row(results, "ring_pull.ball_y", table, ball(1));
+  limit_row(results, "ring_pull.ball_z", table, ball(2));
+  limit_row(results, "ring_pull.ring_y", table, [](const Digest& d) { return measure::ring_at(d, 0, 1, 1.0); });
+}
+
+void ring_pull_table(const Results& unsorted, Table& table) {
+  const Results results = by_elements(unsorted);
+  table.row("ring_pull.passes", least_of(results, measure::ball_ahead_of_ring));
+  table.row("ring_pull.drags", least_of(results, measure::ring_end_speed));
+  ring_pull_forces(results, table);
+  table.row("ring_pull.coincide", measure::curves_apart(results, 200, 300));
+  bool fewer = false;
+  for (const Digest* d : results) {
+    if (d->thread_elements() >= 200) break;
+    table.row("ring_pull.fewer_larger", measure::beyond(*d, results, 200), d);
+    fewer = true;
+  }
+  if (!fewer) table.row("ring_pull.fewer_larger", {});
+  ring_pull_limits(results, table);
+}
+
+template <class Measure>
+void row_each(const Results& results, const char* key, Table& table, Measure measure) {
+  for (const Digest* d : results) table.row(key, measure(*d), d);
+}
+
+void edge_closure_table(const Results& results, Table& table) {
+  const auto left_above = [](const Digest& d) { return measure::left_above_right(d, 0.5); };
+  row_each(results, "edge_closure.rest", table, measure::start_speed);
+  row_each(results, "edge_closure.bunched", table, [](const Digest& d) { return measure::spread_at(d, 0.5); });
+  row_each(results, "edge_closure.left_above", table, left_above);
+  row_each(results, "edge_closure.slightly", table, left_above);
+}
+
+void capture_rings(const Digest& d, Table& table) {
+  for (const char* ring : {"1", "2"}) {
+    const std::string key = std::string("capture.ring") + ring;
+    table.row(key + "_time", measure::first_collision_time(d, ring), &d);
+    table.row(key + "_force", measure::first_collision_force(d, ring), &d);
+  }
+  table.row("capture.ring1_peak", measure::peak_force_time(d, "1"), &d);
+}
+
+// Figs. 12 and 13 are of the run that closes at 1.5 s; the first result stands for it.
+void capture_velocities(const Digest& d, Table& table) {
+  table.row("capture.jump_x", measure::separation_jump(d, 0), &d);
+  table.row("capture.jump_y", measure::separation_jump(d, 1), &d);
+  table.row("capture.jump_z", measure::separation_jump(d, 2), &d);
+  table.row("capture.a1_falls", measure::share_lost(d, 0), &d);
+  table.row("capture.a1_turns", measure::turns_positive_after(d), &d);
+  table.row("capture.a1_y_steady", measure::y_change_over_x(d), &d);
+  table.row("capture.mirror", measure::mirror_departure(d), &d);
+}
+
+void capture_table(const Results& results, Table& table) {
+  row_each(results, "capture.first_touch", table, measure::first_touch);
+  row_each(results, "capture.closes_after", table, measure::closed_after);
+  row_each(results, "capture.enclosed", table, measure::enclosed);
+  capture_velocities(*results.front(), table);
+  capture_rings(*results.front(), table);
+  table.row("capture.later_further", measure::least_gain_along_z(results));
+}
+
+}  // namespace
+
+const char* words(Verdict verdict) {
+  switch (verdict) {
+    case Verdict::reproduced: return "reproduced";
+    case Verdict::within_open_inputs: return "within the open inputs";
+    case Verdict::not_reproduced: return "not reproduced";
+    case Verdict::converges: return "converges";
+    case Verdict::not_converged: return "not converged";
+    default: return "not in these results";
+  }
+}
+
+Verdict judge(const PaperNumber& paper, double here, const OpenRange* range) {
+  if (paper.rule == Rule::limit) return holds(paper, here) ? Verdict::converges : Verdict::not_converged;
+  if (holds(paper, here)) return Verdict::reproduced;
+  return range && range_allows(paper, *range) ? Verdict::within_open_inputs : Verdict::not_reproduced;
+}
+
+std::vector<VerdictRow> compare_with_paper(const std::vector<Digest>& results, const Sensitivity& sensitivity) {
+  Results same;
+  for (const Digest& d : results)
+    if (d.paper_case == results.front().paper_case) same.push_back(&d);
+  Table table(sensitivity, same.size() > 1);
+  if (same.empty()) return {};
+  if (same.front()->paper_case == PaperCase::ring_pull) ring_pull_table(same, table);
+  if (same.front()->paper_case == PaperCase::edge_closure) edge_closure_table(same, table);
+  if (same.front()->paper_case == PaperCase::capture) capture_table(same, table);
+  return std::move(table.rows);
+}
+
+}  // namespace cinch
