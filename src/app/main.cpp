@@ -1,0 +1,111 @@
+// The program `cinch`: reads the command line and calls one command.
+#include <CLI/CLI.hpp>
+#include <iostream>
+
+#include "app/commands.hpp"
+#include "base/error.hpp"
+#include "base/version.hpp"
+#include "input/nearest_key.hpp"
+
+namespace {
+
+namespace fs = std::filesystem;
+using cinch::app::CaseArguments;
+
+// "key.path=value" to an override; CLI11 reports the message with exit code 2.
+cinch::Override parse_override(const std::string& text) {
+  const auto equals = text.find('=');
+  if (equals == std::string::npos || equals == 0)
+    throw cinch::CaseError("error: --set " + text + ": expected key.path=value");
+  return {text.substr(0, equals), text.substr(equals + 1)};
+}
+
+struct Options {
+  cinch::app::RunArguments run;
+  std::vector<std::string> sets;
+  bool resolved = false;
+  std::vector<fs::path> results;
+  fs::path html;
+};
+
+void add_case(CLI::App& command, Options& options) {
+  command.add_option("CASE", options.run.scene.file, "case file (TOML)")->required();
+  command.add_option("--set", options.sets, "override a key of the case: key.path=value")
+      ->allow_extra_args(false);
+  command
+      .add_option("--threads", options.run.scene.threads, "threads (default: as many as pay for the scene)")
+      ->check(CLI::Range(1, 4096))
+      ->envname("CINCH_THREADS");
+}
+
+struct Commands {
+  CLI::App *run, *check, *info, *report, *compare;
+};
+
+Commands define(CLI::App& app, Options& options) {
+  app.set_version_flag("--version", std::string("cinch ") + cinch::version + " (" + cinch::commit + ", " +
+                                        cinch::compiler + ")");
+  app.require_subcommand(1);
+  Commands c{app.add_subcommand("run", "simulate a case"),
+             app.add_subcommand("check", "validate a case and say what it would do"),
+             app.add_subcommand("info", "what is in a result"),
+             app.add_subcommand("report", "one HTML page from one or several results"),
+             app.add_subcommand("compare", "compare two results: bits, then differences (exit code 5)")};
+  add_case(*c.run, options);
+  c.run->add_option("--out", options.run.out, "folder for the results (default: results/NAME)");
+  c.run->add_flag("--overwrite", options.run.overwrite, "replace a result that is there already");
+  c.run->add_flag("--quiet", options.run.quiet, "no progress, no verdict");
+  add_case(*c.check, options);
+  c.check->add_flag("--resolved", options.resolved, "print the case with every default written out");
+  c.info->add_option("RESULT", options.results, "folder or .vtkhdf file")->required()->expected(1);
+  c.report->add_option("RESULT", options.results, "folders or .vtkhdf files")->required()->expected(1, 1000);
+  c.report->add_option("--html", options.html,
+                       "file to write (default: report.html beside the first result)");
+  c.compare->add_option("RESULT", options.results, "two folders or .vtkhdf files")->required()->expected(2);
+  return c;
+}
+
+// CLI11 only says that a sub-command is required; name the nearest one.
+void hint_at_command(const CLI::App& app, int argc, char** argv) {
+  if (argc < 2 || argv[1][0] == '-') return;
+  std::vector<std::string> names;
+  for (const CLI::App* command : app.get_subcommands(nullptr)) names.push_back(command->get_name());
+  if (std::find(names.begin(), names.end(), argv[1]) != names.end()) return;
+  const std::string nearest = cinch::nearest_key(argv[1], names);
+  std::cerr << "error: unknown command '" << argv[1] << "'"
+            << (nearest.empty() ? std::string() : "; did you mean '" + nearest + "'?") << "\n";
+}
+
+int dispatch(const Commands& c, Options& options) {
+  for (const std::string& set : options.sets) options.run.scene.overrides.push_back(parse_override(set));
+  if (*c.run) return cinch::app::run(options.run);
+  if (*c.check) return cinch::app::check(options.run.scene, options.resolved);
+  if (*c.info) return cinch::app::info(options.results[0]);
+  if (*c.report) return cinch::app::report(options.results, options.html);
+  return cinch::app::compare(options.results[0], options.results[1]);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  CLI::App app{"Cinch: dynamics of tether-nets that capture space debris"};
+  Options options;
+  const Commands commands = define(app, options);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    if (error.get_exit_code() == 0) return app.exit(error);  // --help, --version
+    hint_at_command(app, argc, argv);
+    app.exit(error);
+    return static_cast<int>(cinch::ExitCode::usage);
+  }
+  try {
+    return dispatch(commands, options);
+  } catch (const cinch::Error& error) {
+    std::cerr << error.what() << "\n";
+    return static_cast<int>(error.code);
+  } catch (const std::exception& error) {
+    std::cerr << "internal error: " << error.what() << "\n";
+    return static_cast<int>(cinch::ExitCode::internal);
+  }
+}

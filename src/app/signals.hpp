@@ -1,0 +1,10 @@
+// SIGINT, SIGTERM and SIGHUP ask a run to stop after the step at hand; a second SIGINT ends it at once.
+#pragma once
+
+namespace cinch::app {
+
+void watch_signals();
+/// The signal that asked to stop, 0 while none has.
+int stop_signal();
+
+}  // namespace cinch::app
