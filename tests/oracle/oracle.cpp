@@ -1,0 +1,386 @@
+#include "oracle/oracle.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <stdexcept>
+
+#include "oracle/closest.hpp"
+
+namespace oracle {
+
+using cinch::AssemblyBall;
+using cinch::AssemblyElement;
+using cinch::AssemblyNode;
+using cinch::AssemblyRing;
+using cinch::Support;
+
+namespace {
+
+template <class List>
+auto& at(List& list, Index i) {
+  return list[static_cast<std::size_t>(i)];
+}
+
+template <class List>
+Index count(const List& list) {
+  return static_cast<Index>(list.size());
+}
+
+/// Equivalent stiffness of two rounded bodies in contact, eq. (7).
+double contact_stiffness(double radius_1, double radius_2, double compliance_1, double compliance_2) {
+  const double r = radius_1 * radius_2 / (radius_1 + radius_2);
+  return 4 / (3 * std::numbers::pi) * std::sqrt(r) / (compliance_1 + compliance_2);
+}
+
+/// The contact law, eqs. (6) and (9).
+struct Push {
+  double elastic = 0, total = 0;  // N
+  double potential = 0;           // J
+};
+
+Push hunt_crossley(double stiffness, double alpha, double delta, double delta_dot) {
+  const double elastic = stiffness * std::pow(delta, 1.5);
+  return {elastic, std::max(0.0, elastic * (1 + 1.5 * alpha * delta_dot)), 0.4 * elastic * delta};
+}
+
+Vec3 any_normal_to(const Vec3& n) {
+  const Vec3 other = std::abs(n.x()) < 0.5 ? Vec3::UnitX() : Vec3::UnitY();
+  return n.cross(other).normalized();
+}
+
+}  // namespace
+
+struct Oracle::Motion {
+  const std::vector<Vec3>& x;
+  const std::vector<Vec3>& v;
+  Vec3 place(const AssemblyElement& e, double t) const { return (1 - t) * at(x, e.a) + t * at(x, e.b); }
+  Vec3 speed(const AssemblyElement& e, double t) const { return (1 - t) * at(v, e.a) + t * at(v, e.b); }
+};
+
+struct Oracle::Frame {
+  Vec3 center, velocity;
+  Vec3 normal, normal_rate = Vec3::Zero();
+  double host_length = 0;  // m, of a host element
+};
+
+struct Oracle::Site {
+  Index element = 0;
+  double t = 0;
+  double delta = 0, delta_dot = 0;  // m, m/s
+  Vec3 direction = Vec3::Zero();    // n, from the ring or ball to the element
+  Vec3 turning = Vec3::Zero();  // m, tangential gradient of the distance with respect to the ring's normal
+};
+
+// ----------------------------------------------------------------------------------------------------
+// Set-up and closing
+
+Oracle::Oracle(const cinch::Scene& scene, const cinch::Assembly& assembly)
+    : scene_(scene), assembly_(assembly), dt_(scene.time.step) {
+  if (!(dt_ > 0)) throw std::invalid_argument("the oracle needs a given time step");
+  waits_ = scene.closing.time.has_value() && assembly.has_closing();
+  if (waits_) closing_step_ = std::llround(*scene.closing.time / dt_);
+}
+
+void Oracle::start() {
+  n_ = contacts_seen_ = 0;
+  dissipated_damper_ = dissipated_contact_ = 0;
+  activated_ = false;
+  set_extent();
+  x_.clear();
+  v_.clear();
+  for (Index i = 0; i < nodes_; ++i) {
+    const AssemblyNode& node = at(assembly_.nodes, i);
+    x_.push_back(node.position);
+    v_.push_back(node.support == Support::fixed ? Vec3(Vec3::Zero()) : node.velocity);
+  }
+  if (waits_ && closing_step_ == 0) activate();
+  const Evaluation now = evaluate(x_, v_);
+  for (Index i = 0; i < nodes_; ++i) at(v_, i) -= dt_ / 2 * acceleration(i, at(now.force, i));
+  ring_force_ = now.ring_force;
+}
+
+/// What exists, and what can touch what, before or from the closing time on.
+void Oracle::set_extent() {
+  const bool all = rings_active();
+  nodes_ = all ? count(assembly_.nodes) : assembly_.nodes_before;
+  elements_ = all ? count(assembly_.elements) : assembly_.elements_before;
+  of_ring_.clear();
+  of_ball_.clear();
+  for (const AssemblyRing& ring : assembly_.rings) of_ring_.push_back(candidates(ring.parts, ring.element));
+  for (const AssemblyBall& ball : assembly_.balls) of_ball_.push_back(candidates(ball.parts, -1));
+}
+
+/// Lays the closing threads along their carriers, with the velocities found there.
+void Oracle::activate() {
+  activated_ = true;
+  set_extent();
+  x_.resize(assembly_.nodes.size());
+  v_.resize(assembly_.nodes.size());
+  for (const cinch::Lay& lay : assembly_.lays) {
+    at(x_, lay.node) = (1 - lay.s) * at(x_, lay.a) + lay.s * at(x_, lay.b) + lay.offset;
+    at(v_, lay.node) = (1 - lay.s) * at(v_, lay.a) + lay.s * at(v_, lay.b) + lay.jump;
+    if (at(assembly_.nodes, lay.node).support == Support::fixed) at(v_, lay.node).setZero();
+  }
+}
+
+bool Oracle::allowed(Index element, const std::vector<Index>& parts, Index host) const {
+  const Index part = at(assembly_.elements, element).part;
+  return element != host && std::find(parts.begin(), parts.end(), part) != parts.end();
+}
+
+/// Inclusion and exclusion: of `degree` elements that meet in a node, all but one repeat what happens at the
+/// node.
+std::vector<Oracle::Candidate> Oracle::candidates(const std::vector<Index>& parts, Index host) const {
+  std::vector<int> degree(assembly_.nodes.size(), 0);
+  std::vector<Candidate> list;
+  for (Index i = 0; i < elements_; ++i) {
+    if (!allowed(i, parts, host)) continue;
+    ++at(degree, at(assembly_.elements, i).a);
+    ++at(degree, at(assembly_.elements, i).b);
+    list.push_back({i, 0, 0});
+  }
+  if (scene_.contact.shared_node == cinch::SharedNode::paper) return list;
+  const auto repeated = [&](Index node) { return (at(degree, node) - 1.0) / at(degree, node); };
+  for (Candidate& c : list) {
+    c.repeated_a = repeated(at(assembly_.elements, c.element).a);
+    c.repeated_b = repeated(at(assembly_.elements, c.element).b);
+  }
+  return list;
+}
+
+// ----------------------------------------------------------------------------------------------------
+// Stepping
+
+void Oracle::step(int n) {
+  for (int i = 0; i < n; ++i) {
+    if (waits_ && !activated_ && n_ >= closing_step_) activate();
+    const Evaluation now = evaluate(x_, v_);
+    book(now);
+    integrate(now);
+    ++n_;
+  }
+}
+
+void Oracle::integrate(const Evaluation& now) {
+  for (Index i = 0; i < nodes_; ++i) {
+    at(v_, i) += dt_ * acceleration(i, at(now.force, i));
+    at(x_, i) += dt_ * at(v_, i);
+  }
+}
+
+void Oracle::book(const Evaluation& now) {
+  dissipated_damper_ += dt_ * now.damper_power;
+  dissipated_contact_ += dt_ * now.contact_power;
+  contacts_seen_ += now.contacts;
+  ring_force_ = now.ring_force;
+}
+
+Vec3 Oracle::acceleration(Index i, const Vec3& force) const {
+  const AssemblyNode& node = at(assembly_.nodes, i);
+  if (node.support == Support::fixed) return Vec3::Zero();
+  const Vec3 free = force / mass(i);
+  return node.support == Support::guided ? Vec3(free.dot(node.axis) * node.axis) : free;
+}
+
+double Oracle::mass(Index i) const {
+  const AssemblyNode& node = at(assembly_.nodes, i);
+  return rings_active() ? node.mass : node.mass_before;
+}
+
+// ----------------------------------------------------------------------------------------------------
+// Forces
+
+Evaluation Oracle::evaluate(const std::vector<Vec3>& x, const std::vector<Vec3>& v) const {
+  const Motion m{x, v};
+  Evaluation sum;
+  sum.force.assign(x.size(), Vec3::Zero());
+  sum.ring_force.assign(assembly_.rings.size(), Vec3::Zero());
+  if (scene_.gravity) add_gravity(m, sum);
+  for (Index i = 0; i < elements_; ++i) add_element(i, m, sum);
+  if (rings_active()) {
+    for (Index i = 0; i < count(assembly_.rings); ++i) add_ring(i, m, sum);
+  }
+  for (Index i = 0; i < count(assembly_.balls); ++i) add_ball(i, m, sum);
+  return sum;
+}
+
+void Oracle::add_gravity(const Motion& m, Evaluation& sum) const {
+  for (Index i = 0; i < nodes_; ++i) {
+    at(sum.force, i) += mass(i) * *scene_.gravity;
+    sum.gravitational -= mass(i) * scene_.gravity->dot(at(m.x, i));
+  }
+}
+
+/// Spring and damper in parallel, tension only.
+void Oracle::add_element(Index i, const Motion& m, Evaluation& sum) const {
+  const AssemblyElement& e = at(assembly_.elements, i);
+  const Vec3 along = at(m.x, e.b) - at(m.x, e.a);
+  const double length = along.norm(), stretch = length - e.rest_length;
+  if (!(stretch > 0)) return;
+  const double rate = along.dot(at(m.v, e.b) - at(m.v, e.a)) / length;
+  const double spring = e.stiffness * stretch;
+  const double tension = std::max(0.0, spring + e.damping * rate);
+  at(sum.force, e.a) += tension / length * along;
+  at(sum.force, e.b) -= tension / length * along;
+  sum.elastic += 0.5 * spring * stretch;
+  sum.damper_power += (tension - spring) * rate;
+}
+
+// ----------------------------------------------------------------------------------------------------
+// Thread and ring
+
+void Oracle::add_ring(Index i, const Motion& m, Evaluation& sum) const {
+  const AssemblyRing& ring = at(assembly_.rings, i);
+  const Frame frame = frame_of(ring, m);
+  for (const Candidate& c : at(of_ring_, i)) {
+    const AssemblyElement& e = at(assembly_.elements, c.element);
+    const Closest closest =
+        closest_to_circle(at(m.x, e.a), at(m.x, e.b), frame.center, frame.normal, ring.radius);
+    const Site site = ring_site(i, frame, c.element, closest.t, m);
+    sum.contacts += site.delta > 0;
+    push_ring(i, frame, site, 1, sum);
+    push_ring(i, frame, ring_site(i, frame, c.element, 0, m), -c.repeated_a, sum);
+    push_ring(i, frame, ring_site(i, frame, c.element, 1, m), -c.repeated_b, sum);
+  }
+}
+
+Oracle::Frame Oracle::frame_of(const AssemblyRing& ring, const Motion& m) const {
+  Frame frame;
+  if (ring.element < 0) {
+    frame.center = at(m.x, ring.node);
+    frame.velocity = at(m.v, ring.node);
+    frame.normal = ring.normal;
+    return frame;
+  }
+  const AssemblyElement& host = at(assembly_.elements, ring.element);
+  const Vec3 along = at(m.x, host.b) - at(m.x, host.a);
+  const Vec3 rate = (at(m.v, host.b) - at(m.v, host.a)) / along.norm();
+  frame.center = m.place(host, 0.5);
+  frame.velocity = m.speed(host, 0.5);
+  frame.host_length = along.norm();
+  frame.normal = along / frame.host_length;
+  frame.normal_rate = rate - rate.dot(frame.normal) * frame.normal;
+  return frame;
+}
+
+/// With D = P - C = z N + rho u (u the unit radial direction), d^2 = z^2 + (rho - R)^2 = D.D - 2 R rho + R^2:
+///   dd/dP = n = (z N + (rho - R) u) / d,
+///   dd/dN = (R z / (d rho)) D, of which (R z / d) u is normal to N and can turn it.
+Oracle::Site Oracle::ring_site(Index i, const Frame& frame, Index element, double t, const Motion& m) const {
+  const AssemblyRing& ring = at(assembly_.rings, i);
+  const AssemblyElement& e = at(assembly_.elements, element);
+  const Vec3 from_center = m.place(e, t) - frame.center;
+  const double z = from_center.dot(frame.normal);
+  const Vec3 flat = from_center - z * frame.normal;
+  const double rho = flat.norm();
+  const Vec3 radial = rho > 0 ? Vec3(flat / rho) : any_normal_to(frame.normal);
+  const double distance = std::hypot(z, rho - ring.radius);
+
+  Site site{element, t, e.radius + ring.wire_radius - distance};
+  site.direction =
+      distance > 0 ? Vec3((z * frame.normal + (rho - ring.radius) * radial) / distance) : -radial;
+  if (distance > 0) site.turning = ring.radius * z / distance * radial;
+  const double distance_rate =
+      site.direction.dot(m.speed(e, t) - frame.velocity) + site.turning.dot(frame.normal_rate);
+  site.delta_dot = -distance_rate;
+  return site;
+}
+
+/// Adds `share` times the contact: eq. (10) on the element, eq. (12) on the ring's host, and the couple about
+/// the ring's centre, which is what the contact potential's gradient with respect to N leaves on the host's
+/// ends.
+void Oracle::push_ring(Index i, const Frame& frame, const Site& site, double share, Evaluation& sum) const {
+  if (share == 0 || !(site.delta > 0)) return;
+  const AssemblyRing& ring = at(assembly_.rings, i);
+  const AssemblyElement& e = at(assembly_.elements, site.element);
+  const double stiffness = contact_stiffness(e.radius, ring.wire_radius, e.compliance, ring.compliance);
+  const Push push = hunt_crossley(stiffness, scene_.contact.alpha_ring, site.delta, site.delta_dot);
+  const Vec3 force = share * push.total * site.direction;
+  at(sum.force, e.a) += (1 - site.t) * force;
+  at(sum.force, e.b) += site.t * force;
+  at(sum.ring_force, i) -= force;
+  sum.contact += share * push.potential;
+  sum.contact_power += share * (push.total - push.elastic) * site.delta_dot;
+
+  if (ring.element < 0) {
+    at(sum.force, ring.node) -= force;
+    return;
+  }
+  const AssemblyElement& host = at(assembly_.elements, ring.element);
+  at(sum.force, host.a) -= 0.5 * force;
+  at(sum.force, host.b) -= 0.5 * force;
+  if (scene_.contact.couple != cinch::RingCouple::conserving) return;
+  const Vec3 turn = share * push.total / frame.host_length * site.turning;
+  at(sum.force, host.a) -= turn;
+  at(sum.force, host.b) += turn;
+}
+
+// ----------------------------------------------------------------------------------------------------
+// Element and ball
+
+void Oracle::add_ball(Index i, const Motion& m, Evaluation& sum) const {
+  const AssemblyBall& ball = at(assembly_.balls, i);
+  for (const Candidate& c : at(of_ball_, i)) {
+    const AssemblyElement& e = at(assembly_.elements, c.element);
+    const Site site = ball_site(i, c.element, closest_to_point(at(m.x, e.a), at(m.x, e.b), ball.center).t, m);
+    sum.contacts += site.delta > 0;
+    push_ball(i, site, 1, sum);
+    push_ball(i, ball_site(i, c.element, 0, m), -c.repeated_a, sum);
+    push_ball(i, ball_site(i, c.element, 1, m), -c.repeated_b, sum);
+  }
+}
+
+Oracle::Site Oracle::ball_site(Index i, Index element, double t, const Motion& m) const {
+  const AssemblyBall& ball = at(assembly_.balls, i);
+  const AssemblyElement& e = at(assembly_.elements, element);
+  const Vec3 from_center = m.place(e, t) - ball.center;
+  const double distance = from_center.norm();
+  Site site{element, t, e.radius + ball.radius - distance};
+  site.direction = distance > 0 ? Vec3(from_center / distance) : any_normal_to(at(m.x, e.b) - at(m.x, e.a));
+  site.delta_dot = -site.direction.dot(m.speed(e, t));
+  return site;
+}
+
+void Oracle::push_ball(Index i, const Site& site, double share, Evaluation& sum) const {
+  if (share == 0 || !(site.delta > 0)) return;
+  const AssemblyBall& ball = at(assembly_.balls, i);
+  const AssemblyElement& e = at(assembly_.elements, site.element);
+  const double stiffness = contact_stiffness(e.radius, ball.radius, e.compliance, ball.compliance);
+  const Push push = hunt_crossley(stiffness, scene_.contact.alpha_target, site.delta, site.delta_dot);
+  const Vec3 force = share * push.total * site.direction;
+  at(sum.force, e.a) += (1 - site.t) * force;
+  at(sum.force, e.b) += site.t * force;
+  sum.contact += share * push.potential;
+  sum.contact_power += share * (push.total - push.elastic) * site.delta_dot;
+}
+
+// ----------------------------------------------------------------------------------------------------
+// Results
+
+Result Oracle::result() const {
+  const Evaluation now = evaluate(x_, v_);
+  Result r{static_cast<double>(n_) * dt_, x_, v_, ring_force_};
+  for (Index i = 0; i < nodes_; ++i) r.kinetic += 0.5 * mass(i) * at(v_, i).squaredNorm();
+  r.elastic = now.elastic;
+  r.contact = now.contact;
+  r.gravitational = now.gravitational;
+  r.dissipated_damper = dissipated_damper_;
+  r.dissipated_contact = dissipated_contact_;
+  r.contacts_seen = contacts_seen_;
+  return r;
+}
+
+Vec3 Oracle::momentum() const {
+  Vec3 sum = Vec3::Zero();
+  for (Index i = 0; i < nodes_; ++i) sum += mass(i) * at(v_, i);
+  return sum;
+}
+
+Vec3 Oracle::angular_momentum() const {
+  Vec3 sum = Vec3::Zero();
+  for (Index i = 0; i < nodes_; ++i) sum += mass(i) * at(x_, i).cross(at(v_, i));
+  return sum;
+}
+
+}  // namespace oracle
