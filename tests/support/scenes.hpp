@@ -1,0 +1,47 @@
+// What the physics tests share: short ways to write a scene, to move it and to look at it.
+#pragma once
+#include <cmath>
+#include <numbers>
+#include <string_view>
+#include <vector>
+
+#include "input/case_reader.hpp"
+#include "plan/simulation.hpp"
+
+namespace cinch::test {
+
+constexpr double g0 = 9.81;  // m/s^2
+
+constexpr std::size_t at(Index i) { return static_cast<std::size_t>(i); }
+
+inline Scene scene_of(std::string_view toml) { return parse_case(toml, "test.toml"); }
+
+inline Vec3 place(const Simulation& sim, Index node) {
+  return {sim.state().x[at(node)], sim.state().y[at(node)], sim.state().z[at(node)]};
+}
+
+inline std::vector<Vec3> places(const Simulation& sim) {
+  std::vector<Vec3> all;
+  for (Index i = 0; i < sim.model().nodes; ++i) all.push_back(place(sim, i));
+  return all;
+}
+
+inline void run_until(Simulation& sim, double time) {
+  sim.advance_to(std::llround(time / sim.preparation().dt));
+}
+
+inline double step_of(const Simulation& sim) { return sim.preparation().dt; }
+
+inline double circle(double diameter) { return std::numbers::pi / 4 * diameter * diameter; }
+
+/// h of eq. (8), 1/Pa.
+inline double compliance(double youngs_modulus, double poissons_ratio) {
+  return (1 - poissons_ratio * poissons_ratio) / (std::numbers::pi * youngs_modulus);
+}
+
+/// k_c of eq. (7), N/m^1.5.
+inline double hertz_stiffness(double r1, double r2, double h1, double h2) {
+  return 4 / (3 * std::numbers::pi) / (h1 + h2) * std::sqrt(r1 * r2 / (r1 + r2));
+}
+
+}  // namespace cinch::test
