@@ -21,10 +21,17 @@ struct RunArguments {
   bool quiet = false;
 };
 
+struct ReportArguments {
+  std::vector<std::filesystem::path> results;
+  std::vector<std::filesystem::path> open;  ///< runs with inputs changed that the paper leaves open
+  std::filesystem::path html;               ///< empty: report.html beside the first result
+  std::filesystem::path table;              ///< Markdown table; empty: none
+};
+
 int run(const RunArguments& arguments);
 int check(const CaseArguments& arguments, bool resolved);
 int info(const std::filesystem::path& result);
-int report(const std::vector<std::filesystem::path>& results, const std::filesystem::path& html);
+int report(const ReportArguments& arguments);
 int compare(const std::filesystem::path& a, const std::filesystem::path& b);
 
 }  // namespace cinch::app

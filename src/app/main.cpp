@@ -25,7 +25,7 @@ struct Options {
   std::vector<std::string> sets;
   bool resolved = false;
   std::vector<fs::path> results;
-  fs::path html;
+  cinch::app::ReportArguments report;
 };
 
 void add_case(CLI::App& command, Options& options) {
@@ -58,9 +58,13 @@ Commands define(CLI::App& app, Options& options) {
   add_case(*c.check, options);
   c.check->add_flag("--resolved", options.resolved, "print the case with every default written out");
   c.info->add_option("RESULT", options.results, "folder or .vtkhdf file")->required()->expected(1);
-  c.report->add_option("RESULT", options.results, "folders or .vtkhdf files")->required()->expected(1, 1000);
-  c.report->add_option("--html", options.html,
-                       "file to write (default: report.html beside the first result)");
+  c.report->add_option("RESULT", options.report.results, "folders or .vtkhdf files")
+      ->required()
+      ->expected(1, 1000);
+  c.report->add_option("--html", options.report.html, "page to write (default: report.html beside the result)");
+  c.report->add_option("--table", options.report.table, "Markdown file for the table of the paper's numbers");
+  c.report->add_option("--open", options.report.open, "runs with inputs changed that the paper leaves open")
+      ->expected(1, 1000);
   c.compare->add_option("RESULT", options.results, "two folders or .vtkhdf files")->required()->expected(2);
   return c;
 }
@@ -81,7 +85,7 @@ int dispatch(const Commands& c, Options& options) {
   if (*c.run) return cinch::app::run(options.run);
   if (*c.check) return cinch::app::check(options.run.scene, options.resolved);
   if (*c.info) return cinch::app::info(options.results[0]);
-  if (*c.report) return cinch::app::report(options.results, options.html);
+  if (*c.report) return cinch::app::report(options.report);
   return cinch::app::compare(options.results[0], options.results[1]);
 }
 

@@ -6,6 +6,7 @@
 #include "output/compare.hpp"
 #include "output/info.hpp"
 #include "output/result_reader.hpp"
+#include "report/open_inputs.hpp"
 #include "report/report.hpp"
 
 namespace cinch::app {
@@ -15,14 +16,18 @@ int info(const std::filesystem::path& result) {
   return 0;
 }
 
-int report(const std::vector<std::filesystem::path>& paths, const std::filesystem::path& html) {
+int report(const ReportArguments& arguments) {
   std::vector<Result> results;
-  for (const auto& path : paths) results.emplace_back(path);
-  std::filesystem::path target = html;
-  if (target.empty()) target = results.front().path().parent_path() / "report.html";
-  write_report(results, target);
+  for (const auto& path : arguments.results) results.emplace_back(path);
+  std::vector<Digest> variants;
+  for (const auto& path : arguments.open) variants.push_back(digest(Result(path)));
+  const Sensitivity open_inputs = range_over(variants);
+  std::filesystem::path html = arguments.html;
+  if (html.empty()) html = results.front().path().parent_path() / "report.html";
+  write_report(results, html, open_inputs);
+  if (!arguments.table.empty()) write_paper_table(results, arguments.table, open_inputs);
   for (const Result& result : results) print_verdict(result, std::cout);
-  std::cout << "report: " << target.string() << "\n";
+  std::cout << "report: " << html.string() << "\n";
   return 0;
 }
 

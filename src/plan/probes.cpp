@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "base/error.hpp"
-#include "plan/mouth.hpp"
+#include "scene/mouth.hpp"
 
 namespace cinch {
 namespace {

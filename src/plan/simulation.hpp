@@ -5,7 +5,7 @@
 #include "base/result.hpp"
 #include "plan/closing.hpp"
 #include "plan/ledger.hpp"
-#include "plan/mouth.hpp"
+#include "scene/mouth.hpp"
 #include "plan/preparation.hpp"
 
 namespace cinch {
@@ -50,6 +50,8 @@ class Simulation {
   void enter_phase(std::size_t phase);
   void close();
   void check_health();
+  void check_contacts() const;
+  [[noreturn]] void report_runaway() const;
   std::vector<Event> all_events() const;
 
   Scene scene_;
@@ -64,7 +66,7 @@ class Simulation {
   std::vector<NetSurface> surfaces_;
   std::array<double, stage_count> seconds_{};  ///< of phases that are over
   double greatest_mouth_ = 0;
-  bool mouth_closed_ = false;
+  bool has_mouth_ = false, mouth_closed_ = false;
   std::vector<bool> enclosed_;
   std::vector<Event> events_;  ///< those noted here; contacts are kept in the tallies
 };

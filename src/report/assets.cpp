@@ -13,7 +13,9 @@ extern const char cinch_asset_page_js[], cinch_asset_page_js_end[];
 namespace cinch::assets {
 namespace {
 
-std::string_view text(const char* begin, const char* end) { return {begin, static_cast<std::size_t>(end - begin)}; }
+std::string_view text(const char* begin, const char* end) {
+  return {begin, static_cast<std::size_t>(end - begin)};
+}
 
 }  // namespace
 

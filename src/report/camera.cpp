@@ -40,7 +40,8 @@ Vec3 thinnest_axis(const Frame& first, const Vec3& up) {
 
 Vec3 viewpoint(const Frame& first, const ViewHints& hints, const Vec3& up) {
   if (hints.pull_along_y) return {0.92, -0.28, 0.26};
-  if (!hints.gravity) return {-0.70, 0.42, 0.62};  // the flight along Z runs to the right and towards the viewer
+  if (!hints.gravity)
+    return {-0.70, 0.42, 0.62};  // the flight along Z runs to the right and towards the viewer
   Vec3 normal = thinnest_axis(first, up);
   if (up.cross(normal).dot(hints.rightwards) < 0) normal = -normal;
   return normal + 0.15 * up;  // nearly from the front, so that heights can be compared
@@ -65,7 +66,8 @@ Seen Camera::see(const Vec3& point) const {
   return {p.dot(right) * size, p.dot(up) * size, depth, size};
 }
 
-Camera choose_camera(const ResultModel& model, const Frame& first, const Frame& last, const ViewHints& hints) {
+Camera choose_camera(const ResultModel& model, const Frame& first, const Frame& last,
+                     const ViewHints& hints) {
   const Box box = box_of(model, first, last);
   Vec3 up = Vec3::UnitY();
   if (hints.pull_along_y) up = Vec3::UnitZ();

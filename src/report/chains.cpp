@@ -7,6 +7,7 @@
 namespace cinch {
 namespace {
 
+constexpr double kSlack = 1e-6;    // N: less is rounding
 constexpr double kStraight = 0.5;  // least cosine between an element and the next one of its chain
 
 std::size_t at(Index i) { return static_cast<std::size_t>(i); }
@@ -48,7 +49,8 @@ class Stringer {
       double straightest = kStraight;
       for (const Index e : incident_[at(tip)]) {
         if (used_[at(e)] || model_.element_part[at(e)] != chain.part) continue;
-        const double straight = along.dot((position_[at(other_end(e, tip))] - position_[at(tip)]).normalized());
+        const double straight =
+            along.dot((position_[at(other_end(e, tip))] - position_[at(tip)]).normalized());
         if (straight > straightest) straightest = straight, best = e;
       }
       if (best < 0) return;
@@ -95,12 +97,12 @@ std::vector<Chain> chosen_chains(const std::vector<Chain>& chains, std::size_t m
 }
 
 int tension_level(double tension, double reference) {
-  if (tension <= 0) return 0;
+  if (tension <= kSlack) return 0;
   return tension < 0.1 * reference ? 1 : tension < reference ? 2 : 3;
 }
 
 double tension_reference(std::vector<double> greatest) {
-  std::erase_if(greatest, [](double value) { return !(value > 0); });
+  std::erase_if(greatest, [](double value) { return !(value > kSlack); });
   if (greatest.empty()) return 1;
   const auto middle = greatest.begin() + static_cast<std::ptrdiff_t>(greatest.size() / 2);
   std::nth_element(greatest.begin(), middle, greatest.end());

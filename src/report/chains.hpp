@@ -1,4 +1,5 @@
-// The elements of a result strung together again: rows and columns of a net, threads. Lines are drawn along them.
+// The elements of a result strung together again: rows and columns of a net, threads. Lines are drawn along
+// them.
 #pragma once
 #include <vector>
 
@@ -9,7 +10,7 @@ namespace cinch {
 /// Elements of one part, end to end and as straight as the part allows.
 struct Chain {
   int part = 0;
-  std::vector<Index> nodes;     ///< elements.size() + 1
+  std::vector<Index> nodes;  ///< elements.size() + 1
   std::vector<Index> elements;
 };
 
@@ -22,8 +23,8 @@ std::vector<Chain> chosen_chains(const std::vector<Chain>& chains, std::size_t m
 /// Four levels of an element: 0 slack, 1 below a tenth of the reference, 2 below it, 3 above.
 int tension_level(double tension, double reference);
 
-/// A reference for tension_level: the median of the frames' greatest tensions, rounded to 1, 2 or 5 times a power of
-/// ten; 1 N where nothing is ever taut.
+/// A reference for tension_level: the median of the frames' greatest tensions, rounded to 1, 2 or 5 times a
+/// power of ten; 1 N where nothing is ever taut.
 double tension_reference(std::vector<double> greatest);
 
 }  // namespace cinch

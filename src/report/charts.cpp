@@ -52,13 +52,22 @@ std::optional<double> before_closing(const Digest& d) {
 }
 
 Plot force_against_elements(const std::vector<const Digest*>& results) {
-  Plot plot{"Largest contact force on the ring against the number of elements", "Fig. 9", "elements of the thread",
-            "force, N", {}, {}, "", false, true};
+  Plot plot{"Largest contact force on the ring against the number of elements",
+            "Fig. 9",
+            "elements of the thread",
+            "force, N",
+            {},
+            {},
+            "",
+            false,
+            true};
   std::vector<std::pair<double, double>> points;
   for (const Digest* d : results)
-    if (const auto peak = measure::peak_ring_force(*d).value) points.emplace_back(d->thread_elements(), *peak);
+    if (const auto peak = measure::peak_ring_force(*d).value)
+      points.emplace_back(d->thread_elements(), *peak);
   std::sort(points.begin(), points.end());
-  Curve here{"Cinch", {}, points.size() > 1 ? "line" : "points", 0}, paper{"paper, read off its plot", {}, "reference", 1};
+  Curve here{"Cinch", {}, points.size() > 1 ? "line" : "points", 0},
+      paper{"paper, read off its plot", {}, "reference", 1};
   for (const auto& [n, force] : points) here.points.t.push_back(n), here.points.v.push_back(force);
   for (const int n : {50, 100, 200, 300}) {
     paper.points.t.push_back(n);
@@ -70,20 +79,35 @@ Plot force_against_elements(const std::vector<const Digest*>& results) {
 }
 
 std::vector<Plot> ring_pull_plots(const std::vector<const Digest*>& results) {
-  const auto ring_y = [](const Digest& d) { return d.ring_position.empty() ? Series{} : d.ring_position[0].component(1); };
+  const auto ring_y = [](const Digest& d) {
+    return d.ring_position.empty() ? Series{} : d.ring_position[0].component(1);
+  };
   const auto path = [](const Digest& d) {
-    return d.mass_position.empty() ? Series{} : end_to_end(d.mass_position[0].component(1), d.mass_position[0].component(2));
+    return d.mass_position.empty()
+               ? Series{}
+               : end_to_end(d.mass_position[0].component(1), d.mass_position[0].component(2));
   };
   const auto force = [](const Digest& d) { return d.ring_force.empty() ? Series{} : d.ring_force[0].norm(); };
   Plot ball{"Path of the ball", "Fig. 7", "Y, m", "Z, m", curve_each(results, path), {}, "", true, false};
   if (!ball.curves.empty())
-    ball.curves.push_back({"limit at 1.0 s",
-                           {{paper_number("ring_pull.ball_y").value}, {paper_number("ring_pull.ball_z").value}},
-                           "reference", 4});
-  return {{"Displacement of the ring", "Fig. 8", "t, s", "ring Y, m", curve_each(results, ring_y), {}, "", false, false},
-          force_against_elements(results),
-          ball,
-          {"Contact force on the ring", "", "t, s", "force, N", curve_each(results, force), {}, "", false, true}};
+    ball.curves.push_back(
+        {"limit at 1.0 s",
+         {{paper_number("ring_pull.ball_y").value}, {paper_number("ring_pull.ball_z").value}},
+         "reference",
+         4});
+  return {
+      {"Displacement of the ring",
+       "Fig. 8",
+       "t, s",
+       "ring Y, m",
+       curve_each(results, ring_y),
+       {},
+       "",
+       false,
+       false},
+      force_against_elements(results),
+      ball,
+      {"Contact force on the ring", "", "t, s", "force, N", curve_each(results, force), {}, "", false, true}};
 }
 
 std::vector<Plot> edge_closure_plots(const std::vector<const Digest*>& results) {
@@ -100,37 +124,61 @@ std::vector<Plot> edge_closure_plots(const std::vector<const Digest*>& results) 
   } else {
     heights.note = "The result names no two masses, or its case has no gravity.";
   }
-  Plot spread{"Greatest distance between ring centres", "Fig. 10", "t, s", "distance, m",
-              curve_each(results, [](const Digest& r) { return r.mouth_spread; }), {}, "", false, true};
+  Plot spread{"Greatest distance between ring centres",
+              "Fig. 10",
+              "t, s",
+              "distance, m",
+              curve_each(results, [](const Digest& r) { return r.mouth_spread; }),
+              {},
+              "",
+              false,
+              true};
   if (!spread.curves.empty()) {
     const double level = paper_number("edge_closure.bunched").value;
     spread.curves.push_back({"bunched", {{0, d.end_time()}, {level, level}}, "dash", 4});
   }
   Plot force{"Contact force on the rings", "", "t, s", "force, N", {}, {}, "", false, true};
   for (std::size_t r = 0; r < d.ring_force.size(); ++r)
-    force.curves.push_back({"ring " + d.model.rings[r].name, d.ring_force[r].norm(), "line", static_cast<int>(r)});
+    force.curves.push_back(
+        {"ring " + d.model.rings[r].name, d.ring_force[r].norm(), "line", static_cast<int>(r)});
   return {heights, spread, force};
 }
 
 Plot velocity_plot(const Digest& d, int axis) {
   const char name = "XYZ"[axis];
-  Plot plot{std::string(1, name) + " velocities of split masses A and B of mechanism 1", "Fig. 12", "t, s",
-            std::string("v") + name + ", m/s", {}, capture_marks(d), "", false, false, before_closing(d)};
+  Plot plot{std::string(1, name) + " velocities of split masses A and B of mechanism 1",
+            "Fig. 12",
+            "t, s",
+            std::string("v") + name + ", m/s",
+            {},
+            capture_marks(d),
+            "",
+            false,
+            false,
+            before_closing(d)};
   const auto pair = measure::split_masses(d);
   if (!pair) {
     plot.note = "The result has no split masses of a mechanism 1.";
     return plot;
   }
   for (std::size_t side = 0; side < 2; ++side)
-    plot.curves.push_back({side == 0 ? "A1" : "B1", d.mass_velocity[at((*pair)[side])].component(axis), "line",
-                           static_cast<int>(side)});
+    plot.curves.push_back({side == 0 ? "A1" : "B1", d.mass_velocity[at((*pair)[side])].component(axis),
+                           "line", static_cast<int>(side)});
   if (d.mass_velocity[at((*pair)[0])].source == "frames")
     plot.note = "From frames: no velocity probe of the split masses.";
   return plot;
 }
 
 Plot ring_plot(const Digest& d, const std::string& name) {
-  Plot plot{"Contact force on ring " + name, "Fig. 13", "t, s", "force, N", {}, {}, "", false, true,
+  Plot plot{"Contact force on ring " + name,
+            "Fig. 13",
+            "t, s",
+            "force, N",
+            {},
+            {},
+            "",
+            false,
+            true,
             before_closing(d)};
   const int ring = d.ring(name);
   if (ring < 0) {
@@ -148,8 +196,15 @@ std::vector<Plot> capture_plots(const std::vector<const Digest*>& results) {
   const Digest& d = *results.front();
   std::vector<Plot> plots{velocity_plot(d, 0), velocity_plot(d, 1), velocity_plot(d, 2), ring_plot(d, "1"),
                           ring_plot(d, "2")};
-  Plot mouth{"Area of the mouth", "", "t, s", "area, m²", curve_each(results, [](const Digest& r) { return r.mouth_area; }),
-             capture_marks(d), "", false, true};
+  Plot mouth{"Area of the mouth",
+             "",
+             "t, s",
+             "area, m²",
+             curve_each(results, [](const Digest& r) { return r.mouth_area; }),
+             capture_marks(d),
+             "",
+             false,
+             true};
   if (mouth.curves.empty()) mouth.note = "The result has fewer than three rings.";
   plots.push_back(mouth);
   return plots;
@@ -180,23 +235,41 @@ nlohmann::json curve_json(const Curve& curve, const std::optional<double>& from)
 std::vector<Plot> figure_plots(const std::vector<Digest>& results) {
   const auto same = of_case(results);
   switch (results.front().paper_case) {
-    case PaperCase::ring_pull: return ring_pull_plots(same);
-    case PaperCase::edge_closure: return edge_closure_plots(same);
-    case PaperCase::capture: return capture_plots(same);
-    default: break;
+    case PaperCase::ring_pull:
+      return ring_pull_plots(same);
+    case PaperCase::edge_closure:
+      return edge_closure_plots(same);
+    case PaperCase::capture:
+      return capture_plots(same);
+    default:
+      break;
   }
   std::vector<Plot> plots;
   const Digest& d = results.front();
   if (!d.mouth_area.empty())
-    plots.push_back({"Area of the mouth", "", "t, s", "area, m²", {{d.label(), d.mouth_area, "line", 0}},
-                     capture_marks(d), "", false, true});
+    plots.push_back({"Area of the mouth",
+                     "",
+                     "t, s",
+                     "area, m²",
+                     {{d.label(), d.mouth_area, "line", 0}},
+                     capture_marks(d),
+                     "",
+                     false,
+                     true});
   return plots;
 }
 
 std::vector<Plot> energy_plots(const Digest& d) {
   Plot ledger{"Energy ledger", "", "t, s", "energy, J", {}, {}, "", false, false};
-  Plot residual{"Residual of the ledger", "", "t, s", "residual, J", {}, {}, "Initial energy less all that is accounted for.",
-                false, false};
+  Plot residual{"Residual of the ledger",
+                "",
+                "t, s",
+                "residual, J",
+                {},
+                {},
+                "Initial energy less all that is accounted for.",
+                false,
+                false};
   const auto& names = Energies::names();
   for (std::size_t term = 0; term < names.size(); ++term) {
     Series series{d.frame_times, {}};
@@ -211,8 +284,17 @@ std::vector<Plot> energy_plots(const Digest& d) {
     }
   }
   if (ledger.curves.empty()) ledger.note = "The run kept no ledger.";
-  return {ledger, residual,
-          {"Greatest tension", "", "t, s", "tension, N", {{"of all elements", d.peak_tension, "line", 0}}, {}, "", false, true}};
+  return {ledger,
+          residual,
+          {"Greatest tension",
+           "",
+           "t, s",
+           "tension, N",
+           {{"of all elements", d.peak_tension, "line", 0}},
+           {},
+           "",
+           false,
+           true}};
 }
 
 std::string plots_json(const std::vector<Plot>& plots) {

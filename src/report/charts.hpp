@@ -10,9 +10,9 @@ namespace cinch {
 
 struct Curve {
   std::string label;
-  Series points;              ///< x in t, y in v
-  std::string style = "line"; ///< "line", "dash", "points", "reference" (the paper's or the limit's value)
-  int colour = 0;             ///< number in the page's palette
+  Series points;               ///< x in t, y in v
+  std::string style = "line";  ///< "line", "dash", "points", "reference" (the paper's or the limit's value)
+  int colour = 0;              ///< number in the page's palette
 };
 
 /// A moment worth a vertical line.
@@ -23,14 +23,14 @@ struct Mark {
 
 struct Plot {
   std::string title;
-  std::string source;         ///< the paper's figure, or empty
-  std::string x, y;           ///< axis titles with units
+  std::string source;  ///< the paper's figure, or empty
+  std::string x, y;    ///< axis titles with units
   std::vector<Curve> curves;
   std::vector<Mark> marks;
-  std::string note;           ///< what is missing, what to look at
-  bool equal_axes = false;    ///< a path: the same scale along x and y
-  bool from_zero = false;     ///< y axis begins at 0
-  std::optional<double> from = std::nullopt; ///< curves are shown from this abscissa on
+  std::string note;                           ///< what is missing, what to look at
+  bool equal_axes = false;                    ///< a path: the same scale along x and y
+  bool from_zero = false;                     ///< y axis begins at 0
+  std::optional<double> from = std::nullopt;  ///< curves are shown from this abscissa on
 };
 
 /// Plots of the paper's figures for the case of the first result.

@@ -7,7 +7,7 @@
 #include <map>
 #include <regex>
 
-#include "plan/mouth.hpp"
+#include "scene/mouth.hpp"
 
 namespace cinch {
 namespace {
@@ -32,7 +32,8 @@ int component_of(const std::string& name) {
   return axis == std::string::npos ? -1 : static_cast<int>(axis);
 }
 
-Columns find_columns(const ResultModel& model, const std::string& quantity, const std::vector<std::string>& of) {
+Columns find_columns(const ResultModel& model, const std::string& quantity,
+                     const std::vector<std::string>& of) {
   Columns found;
   for (const auto& column : model.probes) {
     const bool same = column.quantity == quantity || starts_with(column.quantity, quantity + ".");
@@ -47,7 +48,8 @@ void take_vector(const Result& result, const std::string& quantity, const std::v
                  VectorSeries& into) {
   const Columns columns = find_columns(result.model(), quantity, of);
   if (!columns.vector()) return;
-  const auto x = result.probe(columns.part[0]), y = result.probe(columns.part[1]), z = result.probe(columns.part[2]);
+  const auto x = result.probe(columns.part[0]), y = result.probe(columns.part[1]),
+             z = result.probe(columns.part[2]);
   if (x.empty()) return;
   into = {result.probe_times(), {}, "probe"};
   for (std::size_t i = 0; i < x.size(); ++i) into.v.emplace_back(x[i], y[i], z[i]);
@@ -132,7 +134,8 @@ void read_probes(const Result& result, Digest& d) {
 
 // Of the resolved case: [gravity] acceleration_m_s2 = [x, y, z].
 std::optional<Vec3> gravity_in(const std::string& toml) {
-  static const std::regex line(R"(acceleration_m_s2\s*=\s*\[\s*([-+.\deE]+)\s*,\s*([-+.\deE]+)\s*,\s*([-+.\deE]+)\s*,?\s*\])");
+  static const std::regex line(
+      R"(acceleration_m_s2\s*=\s*\[\s*([-+.\deE]+)\s*,\s*([-+.\deE]+)\s*,\s*([-+.\deE]+)\s*,?\s*\])");
   const auto place = toml.find("acceleration_m_s2");
   if (place == std::string::npos) return std::nullopt;
   const std::string rest = toml.substr(place, 200);
@@ -165,7 +168,8 @@ PaperCase recognise(const ResultModel& model) {
 
 int Digest::mass(const std::string& name) const {
   for (std::size_t m = 0; m < model.masses.size(); ++m)
-    if (model.masses[m].name == name || ends_with(model.masses[m].name, "." + name)) return static_cast<int>(m);
+    if (model.masses[m].name == name || ends_with(model.masses[m].name, "." + name))
+      return static_cast<int>(m);
   return -1;
 }
 
@@ -173,7 +177,8 @@ int Digest::ring(const std::string& name) const {
   for (std::size_t r = 0; r < model.rings.size(); ++r) {
     std::string digits = model.rings[r].name;
     if (digits == name) return static_cast<int>(r);
-    digits.erase(digits.begin(), std::find_if(digits.begin(), digits.end(), [](char c) { return c >= '1' && c <= '9'; }));
+    digits.erase(digits.begin(),
+                 std::find_if(digits.begin(), digits.end(), [](char c) { return c >= '1' && c <= '9'; }));
     if (!digits.empty() && digits == name) return static_cast<int>(r);
   }
   return -1;
@@ -218,6 +223,7 @@ std::string Digest::label() const {
 Digest digest(const Result& result) {
   Digest d;
   d.model = result.model();
+  std::erase_if(d.model.masses, [](const auto& mass) { return starts_with(mass.name, "ring."); });
   d.summary = result.summary();
   d.file = std::filesystem::absolute(result.path()).string();
   d.paper_case = recognise(d.model);

@@ -14,18 +14,18 @@ enum class PaperCase { ring_pull, edge_closure, capture, none };
 
 /// Series come from probes where the run has them, else from its frames.
 struct Digest {
-  ResultModel model;
+  ResultModel model;                         ///< its masses without those of rings, which are shown as rings
   std::optional<Summary> summary;
-  std::string file;                          ///< of the result
+  std::string file;  ///< of the result
   PaperCase paper_case = PaperCase::none;
-  std::vector<double> frame_times;           ///< s
-  std::vector<Energies> energies;            ///< J, of the frames
+  std::vector<double> frame_times;                         ///< s
+  std::vector<Energies> energies;                          ///< J, of the frames
   std::vector<VectorSeries> ring_position, ring_force;     ///< m, N: one for each ring
   std::vector<VectorSeries> mass_position, mass_velocity;  ///< m, m/s: one for each named mass
-  Series mouth_area, mouth_spread;           ///< m^2, m
-  Series peak_tension;                       ///< N, greatest of all elements, from the frames
-  double start_speed = 0;                    ///< m/s, greatest of all nodes in the first frame
-  std::optional<Vec3> gravity;               ///< m/s^2, from the resolved case
+  Series mouth_area, mouth_spread;                         ///< m^2, m
+  Series peak_tension;                                     ///< N, greatest of all elements, from the frames
+  double start_speed = 0;                                  ///< m/s, greatest of all nodes in the first frame
+  std::optional<Vec3> gravity;                             ///< m/s^2, from the resolved case
 
   /// Number of the mass whose name is `name` or ends in "." + name; -1 when there is none.
   int mass(const std::string& name) const;
@@ -39,7 +39,7 @@ struct Digest {
   int thread_elements() const;
   /// A short name that tells this result from others of the same report.
   std::string label() const;
-  std::string own_label;                     ///< used instead, where labels would be the same
+  std::string own_label;  ///< used instead, where labels would be the same
 };
 
 Digest digest(const Result& result);

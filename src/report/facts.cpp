@@ -10,10 +10,14 @@ namespace {
 
 const char* name_of(PaperCase which) {
   switch (which) {
-    case PaperCase::ring_pull: return "ring_pull";
-    case PaperCase::edge_closure: return "edge_closure";
-    case PaperCase::capture: return "capture";
-    default: return "";
+    case PaperCase::ring_pull:
+      return "ring_pull";
+    case PaperCase::edge_closure:
+      return "edge_closure";
+    case PaperCase::capture:
+      return "capture";
+    default:
+      return "";
   }
 }
 
@@ -42,7 +46,8 @@ void add_cost(const Digest& d, const Summary& s, std::vector<Fact>& facts) {
                      std::string(cost->source) + ": " + printed("%.4g min", cost->minutes) + " for " +
                          printed("%.3g s", cost->simulated_seconds) + ", Core i7-6700HQ, step 1 µs");
   if (s.minutes_per_simulated_second() > 0)
-    fact.aside += printed("; here %.3g times less, on another machine", paper / s.minutes_per_simulated_second());
+    fact.aside +=
+        printed("; here %.3g times less, on another machine", paper / s.minutes_per_simulated_second());
   facts.push_back(fact);
 }
 
@@ -74,10 +79,10 @@ std::vector<Fact> facts_of(const Digest& d) {
     return facts;
   }
   const Summary& s = *d.summary;
-  facts.push_back(number("energy residual", 100 * s.relative_residual, "%", "over the larger of initial energy and work put in"));
+  facts.push_back(number("energy residual", 100 * s.relative_residual, "%",
+                         "over the larger of initial energy and work put in"));
   facts.push_back(number("momentum drift", s.linear_momentum_drift, "kg m/s", "linear"));
-  if (s.angular_momentum_drift)
-    facts.push_back(number("... angular", *s.angular_momentum_drift, "kg m²/s"));
+  if (s.angular_momentum_drift) facts.push_back(number("... angular", *s.angular_momentum_drift, "kg m²/s"));
   facts.push_back(number("largest penetration", s.max_penetration * 1e3, "mm"));
   facts.push_back(number("simulated", s.simulated_seconds, "s", grouped(s.steps) + " steps"));
   facts.push_back(number("step", s.time_step * 1e6, "µs"));

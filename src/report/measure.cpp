@@ -34,7 +34,8 @@ Results by_elements(Results results) {
 
 Measured ball_ahead_of_ring(const Digest& d) {
   if (d.mass_position.empty() || d.ring_position.empty()) return missing("no ball or no ring in this result");
-  return {d.mass_position[0].component(1).at(d.end_time()) - d.ring_position[0].component(1).at(d.end_time()), ""};
+  return {d.mass_position[0].component(1).at(d.end_time()) - d.ring_position[0].component(1).at(d.end_time()),
+          ""};
 }
 
 Measured ring_end_speed(const Digest& d) {
@@ -72,7 +73,9 @@ Measured greatest_force_rise(const Results& results) {
 
 Measured curves_apart(const Results& results, int fewer, int more) {
   const Digest *a = with_elements(results, fewer), *b = with_elements(results, more);
-  if (!a || !b) return missing("needs results of " + std::to_string(fewer) + " and " + std::to_string(more) + " elements");
+  if (!a || !b)
+    return missing("needs results of " + std::to_string(fewer) + " and " + std::to_string(more) +
+                   " elements");
   const Series ya = a->ring_position.at(0).component(1), yb = b->ring_position.at(0).component(1);
   double apart = 0;
   for (const double t : a->frame_times)
@@ -111,13 +114,18 @@ Measured spread_at(const Digest& d, double time) {
 }
 
 std::optional<std::array<int, 2>> left_and_right(const Digest& d) {
-  if (d.mass_position.size() != 2 || d.ring_position.empty() || d.mass_position[0].empty()) return std::nullopt;
-  const auto named = [&](int m, const char* word) { return d.model.masses[at(m)].name.find(word) != std::string::npos; };
+  if (d.mass_position.size() != 2 || d.ring_position.empty() || d.mass_position[0].empty())
+    return std::nullopt;
+  const auto named = [&](int m, const char* word) {
+    return d.model.masses[at(m)].name.find(word) != std::string::npos;
+  };
   if (named(0, "left") || named(1, "right")) return std::array{0, 1};
   if (named(1, "left") || named(0, "right")) return std::array{1, 0};
   Vec3 centre = Vec3::Zero();
-  for (const VectorSeries& ring : d.ring_position) centre += ring.v.front() / static_cast<double>(d.ring_position.size());
-  const double first = (d.mass_position[0].v.front() - centre).norm(), second = (d.mass_position[1].v.front() - centre).norm();
+  for (const VectorSeries& ring : d.ring_position)
+    centre += ring.v.front() / static_cast<double>(d.ring_position.size());
+  const double first = (d.mass_position[0].v.front() - centre).norm(),
+               second = (d.mass_position[1].v.front() - centre).norm();
   return first <= second ? std::array{0, 1} : std::array{1, 0};
 }
 

@@ -1,5 +1,5 @@
-// How each number of the paper is measured in a result. A number that a result cannot give comes back empty with a
-// note that says what is missing.
+// How each number of the paper is measured in a result. A number that a result cannot give comes back empty
+// with a note that says what is missing.
 #pragma once
 #include <optional>
 #include <string>
@@ -19,15 +19,15 @@ namespace measure {
 using Results = std::vector<const Digest*>;
 
 // 5.1, thread pulling a ring
-Measured ball_ahead_of_ring(const Digest& d);  ///< m, along Y at the end
-Measured ring_end_speed(const Digest& d);      ///< m/s, mean along Y over the last tenth
-Measured peak_ring_force(const Digest& d);     ///< N, of all rings
+Measured ball_ahead_of_ring(const Digest& d);          ///< m, along Y at the end
+Measured ring_end_speed(const Digest& d);              ///< m/s, mean along Y over the last tenth
+Measured peak_ring_force(const Digest& d);             ///< N, of all rings
 Measured greatest_force_rise(const Results& results);  ///< N, from one element number to the next
-Measured curves_apart(const Results& results, int fewer, int more);   ///< m, largest difference of ring Y
+Measured curves_apart(const Results& results, int fewer, int more);  ///< m, largest difference of ring Y
 /// m: ring Y at the end, less that of the result with `reference` elements.
 Measured beyond(const Digest& d, const Results& results, int reference);
-Measured ring_at(const Digest& d, int ring, int axis, double time);   ///< m
-Measured mass_at(const Digest& d, int mass, int axis, double time);   ///< m
+Measured ring_at(const Digest& d, int ring, int axis, double time);  ///< m
+Measured mass_at(const Digest& d, int mass, int axis, double time);  ///< m
 
 // 5.2, one-edge closure
 Measured start_speed(const Digest& d);                    ///< m/s, greatest of all nodes
@@ -37,18 +37,18 @@ Measured left_above_right(const Digest& d, double time);  ///< m, against gravit
 std::optional<std::array<int, 2>> left_and_right(const Digest& d);
 
 // 5.3, net closure; times are counted from the closing time where the name says "after"
-Measured first_touch(const Digest& d);                   ///< s
-Measured closed_after(const Digest& d);                  ///< s
-Measured enclosed(const Digest& d);                      ///< 1 or 0
-Measured separation_jump(const Digest& d, int axis);     ///< m/s, mechanism 1's masses
-Measured share_lost(const Digest& d, int axis);          ///< of A1's velocity within 0.1 s
-Measured y_change_over_x(const Digest& d);               ///< A1: change of Y velocity over that of X within 0.1 s
-Measured turns_positive_after(const Digest& d);          ///< s, A1's X velocity
-Measured mirror_departure(const Digest& d);              ///< m/s
+Measured first_touch(const Digest& d);                ///< s
+Measured closed_after(const Digest& d);               ///< s
+Measured enclosed(const Digest& d);                   ///< 1 or 0
+Measured separation_jump(const Digest& d, int axis);  ///< m/s, mechanism 1's masses
+Measured share_lost(const Digest& d, int axis);       ///< of A1's velocity within 0.1 s
+Measured y_change_over_x(const Digest& d);       ///< A1: change of Y velocity over that of X within 0.1 s
+Measured turns_positive_after(const Digest& d);  ///< s, A1's X velocity
+Measured mirror_departure(const Digest& d);      ///< m/s
 Measured first_collision_time(const Digest& d, const std::string& ring);   ///< s after the closing time
 Measured first_collision_force(const Digest& d, const std::string& ring);  ///< N
 Measured peak_force_time(const Digest& d, const std::string& ring);        ///< s after the closing time
-Measured least_gain_along_z(const Results& results);     ///< m
+Measured least_gain_along_z(const Results& results);                       ///< m
 
 /// Numbers of mechanism 1's split masses a and b; empty when the result has none.
 std::optional<std::array<int, 2>> split_masses(const Digest& d);

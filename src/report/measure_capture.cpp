@@ -49,11 +49,27 @@ Measured first_touch(const Digest& d) {
   return time ? Measured{time, ""} : no_event(d, "nothing touched the target");
 }
 
+// "least area 6.0 % of the greatest before, at 1.586 s", from the closing time on.
+std::string least_mouth(const Digest& d) {
+  double greatest = 0, share = 1, when = 0;
+  for (std::size_t i = 0; i < d.mouth_area.t.size(); ++i) {
+    greatest = std::max(greatest, d.mouth_area.v[i]);
+    if (d.mouth_area.t[i] <= *d.model.closing_time || !(d.mouth_area.v[i] < share * greatest)) continue;
+    share = d.mouth_area.v[i] / greatest;
+    when = d.mouth_area.t[i];
+  }
+  char text[100];
+  std::snprintf(text, sizeof text, "; least area %.1f %% of the greatest before, at %.3f s", 100 * share, when);
+  return when > 0 ? text : "";
+}
+
 Measured closed_after(const Digest& d) {
   const auto time = d.first_event("mouth_closed");
   if (!d.model.closing_time) return missing("nothing closes in this case");
   if (time) return {*time - *d.model.closing_time, ""};
-  return no_event(d, "the mouth did not close");
+  Measured none = no_event(d, "the mouth did not close");
+  none.note += least_mouth(d);
+  return none;
 }
 
 Measured enclosed(const Digest& d) {
@@ -78,7 +94,8 @@ Measured share_lost(const Digest& d, int axis) {
   if (!pair || !d.model.closing_time) return missing("no split masses of mechanism 1 in this result");
   if (d.end_time() < *d.model.closing_time + kAfter - 1e-6) return missing("the run ends too early");
   const Series v = velocity(d, (*pair)[0], axis);
-  const double start = just_after(v, *d.model.closing_time, slack(d)), end = v.at(*d.model.closing_time + kAfter);
+  const double start = just_after(v, *d.model.closing_time, slack(d)),
+               end = v.at(*d.model.closing_time + kAfter);
   if (!(std::abs(start) > 0)) return missing("no velocity to lose");
   return {1 - end / start, sampling(d, (*pair)[0])};
 }
@@ -143,7 +160,8 @@ Measured peak_force_time(const Digest& d, const std::string& ring) {
 }
 
 Measured least_gain_along_z(const Results& results) {
-  std::vector<std::pair<double, double>> reach;  // closing time, mean Z of mechanism 1's split masses 0.4 s later
+  std::vector<std::pair<double, double>>
+      reach;  // closing time, mean Z of mechanism 1's split masses 0.4 s later
   for (const Digest* d : results) {
     const auto pair = split_masses(*d);
     if (!pair || !d->model.closing_time || d->end_time() < *d->model.closing_time + 0.4 - 1e-6) continue;

@@ -12,9 +12,9 @@
 namespace cinch {
 namespace {
 
-constexpr double kMargin = 26;               // px around the scene
-constexpr double kSmallestStep = 0.8;        // px: nearer vertices are left out
-constexpr std::size_t kMostElements = 24000; // in one picture
+constexpr double kMargin = 26;                // px around the scene
+constexpr double kSmallestStep = 0.8;         // px: nearer vertices are left out
+constexpr std::size_t kMostElements = 24000;  // in one picture
 
 std::size_t at(Index i) { return static_cast<std::size_t>(i); }
 
@@ -80,7 +80,8 @@ class Painter {
     for (std::size_t i = 0; i < balls_.size(); ++i) {
       const double radius = model_.balls[i].radius, across = std::hypot(p.x - balls_[i].x, p.y - balls_[i].y);
       if (across >= radius * balls_[i].size) continue;
-      if (p.depth < balls_[i].depth + std::sqrt(std::max(0.0, radius * radius - across * across)) - 1e-9) return true;
+      if (p.depth < balls_[i].depth + std::sqrt(std::max(0.0, radius * radius - across * across)) - 1e-9)
+        return true;
     }
     return false;
   }
@@ -106,7 +107,8 @@ class Painter {
           path = wanted;
         }
         const bool end = k + 1 == chain.elements.size();
-        if (path && (end || std::hypot(b[0] - last[0], b[1] - last[1]) >= kSmallestStep)) line_to(*path, b), last = b;
+        if (path && (end || std::hypot(b[0] - last[0], b[1] - last[1]) >= kSmallestStep))
+          line_to(*path, b), last = b;
         from = to;
       }
     }
@@ -114,7 +116,8 @@ class Painter {
 
   std::string& line_path(int part, std::size_t element, const Seen& from, const Seen& to) {
     const Seen middle{(from.x + to.x) / 2, (from.y + to.y) / 2, (from.depth + to.depth) / 2, 1};
-    const std::string look{family(part), static_cast<char>('0' + tension_level(frame_.tension[element], set_.tension_reference))};
+    const std::string look{family(part), static_cast<char>('0' + tension_level(frame_.tension[element],
+                                                                               set_.tension_reference))};
     return paths_[{hidden(middle), look}];
   }
 
@@ -133,28 +136,35 @@ class Painter {
 
   std::string balls(const std::string& id) const {
     if (balls_.empty()) return "";
-    std::string svg = "<defs><radialGradient id=\"" + id + "\" cx=\".38\" cy=\".32\" r=\".75\"><stop class=\"b1\" offset=\"0\"/>"
-                      "<stop class=\"b2\" offset=\".55\"/><stop class=\"b3\" offset=\"1\"/></radialGradient></defs>";
+    std::string svg =
+        "<defs><radialGradient id=\"" + id +
+        "\" cx=\".38\" cy=\".32\" r=\".75\"><stop class=\"b1\" offset=\"0\"/>"
+        "<stop class=\"b2\" offset=\".55\"/><stop class=\"b3\" offset=\"1\"/></radialGradient></defs>";
     for (std::size_t i = 0; i < balls_.size(); ++i) {
       const Point p = place(balls_[i]);
       svg += "<circle class=\"b\" cx=\"" + px(p[0]) + "\" cy=\"" + px(p[1]) + "\" r=\"" +
-             px(model_.balls[i].radius * balls_[i].size * set_.pixels_per_metre) + "\" fill=\"url(#" + id + ")\"/>";
+             px(model_.balls[i].radius * balls_[i].size * set_.pixels_per_metre) + "\" fill=\"url(#" + id +
+             ")\"/>";
     }
     return svg;
   }
 
-  // A circle seen aslant: an ellipse whose short axis lies along the normal's image. Small rings are drawn larger.
+  // A circle seen aslant: an ellipse whose short axis lies along the normal's image. Small rings are drawn
+  // larger.
   std::string rings() const {
     std::string svg;
     for (std::size_t r = 0; r < frame_.ring_center.size(); ++r) {
       const Seen seen = set_.camera.see(frame_.ring_center[r]);
       const Point p = place(seen);
       const Vec3& n = frame_.ring_normal[r];
-      const double angle = std::atan2(-n.dot(set_.camera.up), n.dot(set_.camera.right)) * 180 / std::numbers::pi;
-      const double radius = std::max(4.0, model_.rings[r].radius * seen.size * set_.pixels_per_metre);
+      const double angle =
+          std::atan2(-n.dot(set_.camera.up), n.dot(set_.camera.right)) * 180 / std::numbers::pi;
+      const double least = frame_.ring_center.size() > 100 ? 1.2 : 4.0;
+      const double radius = std::max(least, model_.rings[r].radius * seen.size * set_.pixels_per_metre);
       const double narrow = std::max(0.18, std::abs(n.dot(set_.camera.toward))) * radius;
-      svg += std::string("<ellipse class=\"") + (hidden(seen) ? "r far" : "r") + "\" rx=\"" + px(narrow) + "\" ry=\"" +
-             px(radius) + "\" transform=\"translate(" + px(p[0]) + " " + px(p[1]) + ") rotate(" + px(angle) + ")\"/>";
+      svg += std::string("<ellipse class=\"") + (hidden(seen) ? "r far" : "r") + "\" rx=\"" + px(narrow) +
+             "\" ry=\"" + px(radius) + "\" transform=\"translate(" + px(p[0]) + " " + px(p[1]) + ") rotate(" +
+             px(angle) + ")\"/>";
     }
     return svg;
   }
@@ -170,9 +180,9 @@ class Painter {
       const std::string last = dot == std::string::npos ? mass.name : mass.name.substr(dot + 1);
       const bool split = last == "a" || last == "b";
       const char* look = last == "launcher" ? "ml" : split ? "ms" : "mo";
-      svg += std::string("<circle class=\"") + look + (hidden(seen) ? " far" : "") + "\" cx=\"" + px(p[0]) + "\" cy=\"" +
-             px(p[1]) + "\" r=\"" + px(5.5 * std::clamp(seen.size, 0.7, 1.4)) + "\"><title>" + html::escape(mass.name) +
-             "</title></circle>";
+      svg += std::string("<circle class=\"") + look + (hidden(seen) ? " far" : "") + "\" cx=\"" + px(p[0]) +
+             "\" cy=\"" + px(p[1]) + "\" r=\"" + px(5.5 * std::clamp(seen.size, 0.7, 1.4)) + "\"><title>" +
+             html::escape(mass.name) + "</title></circle>";
     }
     return svg;
   }
@@ -183,9 +193,11 @@ class Painter {
     for (int axis = 0; axis < 3; ++axis) {
       const Vec3 unit = Vec3::Unit(axis);
       const double x = unit.dot(set_.camera.right), y = -unit.dot(set_.camera.up);
-      svg += "<path d=\"M" + px(x0) + " " + px(y0) + "L" + px(x0 + length * x) + " " + px(y0 + length * y) + "\"/>";
+      svg += "<path d=\"M" + px(x0) + " " + px(y0) + "L" + px(x0 + length * x) + " " + px(y0 + length * y) +
+             "\"/>";
       const double reach = std::hypot(x, y) > 0.2 ? length + 10 / std::hypot(x, y) : length + 20;
-      svg += "<text x=\"" + px(x0 + reach * x) + "\" y=\"" + px(y0 + reach * y + 4) + "\">" + "XYZ"[axis] + "</text>";
+      svg += "<text x=\"" + px(x0 + reach * x) + "\" y=\"" + px(y0 + reach * y + 4) + "\">" + "XYZ"[axis] +
+             "</text>";
     }
     return svg + "</g>";
   }
@@ -211,7 +223,8 @@ PictureSet picture_set(const ResultModel& model, const std::vector<Frame>& frame
     const Window window = window_of(model, set.camera, frame);
     width = std::max(width, window.right - window.left);
     height = std::max(height, window.high - window.low);
-    tensions.push_back(frame.tension.empty() ? 0 : *std::max_element(frame.tension.begin(), frame.tension.end()));
+    tensions.push_back(frame.tension.empty() ? 0
+                                             : *std::max_element(frame.tension.begin(), frame.tension.end()));
   }
   set.tension_reference = tension_reference(tensions);
   set.height = std::clamp(set.width * height / width, 0.5 * set.width, 0.9 * set.width);
@@ -219,7 +232,16 @@ PictureSet picture_set(const ResultModel& model, const std::vector<Frame>& frame
   return set;
 }
 
-std::string net_picture(const PictureSet& set, const Frame& frame, const std::string& label, const std::string& id) {
+void PictureSet::take_view_of(const PictureSet& other) {
+  camera = other.camera;
+  pixels_per_metre = other.pixels_per_metre;
+  width = other.width;
+  height = other.height;
+  tension_reference = other.tension_reference;
+}
+
+std::string net_picture(const PictureSet& set, const Frame& frame, const std::string& label,
+                        const std::string& id) {
   return Painter(set, frame).picture(label, id);
 }
 

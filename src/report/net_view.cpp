@@ -11,7 +11,9 @@
 namespace cinch {
 namespace {
 
-constexpr int kMostFrames = 60;
+constexpr int kMostFrames = 60, kFewestFrames = 6;
+constexpr std::size_t kMostBytes = 3'000'000;  // of coordinates in base64
+constexpr std::size_t kMostNodes = 65535;      // node numbers have 16 bits
 constexpr std::size_t kMostElements = 6000;
 constexpr double kSteps = 65000;  // of a coordinate over the scene's size
 
@@ -30,9 +32,12 @@ struct Bytes {
   std::string text() const { return html::base64(data); }
 };
 
-std::vector<int> chosen_frames(int frames) {
+// Evenly spread; fewer where a frame takes many bytes.
+std::vector<int> chosen_frames(int frames, std::size_t bytes_each) {
   std::vector<int> chosen;
-  const int count = std::min(frames, kMostFrames);
+  const int fitting =
+      static_cast<int>(std::min<std::size_t>(kMostBytes / std::max<std::size_t>(bytes_each, 1), kMostFrames));
+  const int count = std::min(frames, std::max(fitting, kFewestFrames));
   for (int i = 0; i < count; ++i)
     chosen.push_back(count == 1 ? 0 : static_cast<int>(std::lround(double(i) * (frames - 1) / (count - 1))));
   return chosen;
@@ -58,6 +63,9 @@ struct Shown {
     if (number[at(node)] >= 0) return;
     number[at(node)] = static_cast<Index>(nodes.size());
     nodes.push_back(node);
+  }
+  std::size_t bytes_of_a_frame(const ResultModel& model) const {
+    return (6 * nodes.size() + elements.size() + 12 * model.rings.size()) * 4 / 3;
   }
   void fit(const std::vector<Frame>& frames) {
     const auto stretch = [&](const Vec3& p) { low = low.cwiseMin(p), high = high.cwiseMax(p); };
@@ -93,7 +101,8 @@ void add_frames(const std::vector<Frame>& frames, const Shown& shown, Json& json
   Bytes positions, levels, rings;
   std::vector<double> greatest;
   for (const Frame& frame : frames)
-    greatest.push_back(frame.tension.empty() ? 0 : *std::max_element(frame.tension.begin(), frame.tension.end()));
+    greatest.push_back(frame.tension.empty() ? 0
+                                             : *std::max_element(frame.tension.begin(), frame.tension.end()));
   const double reference = tension_reference(greatest);
   json["times"] = Json::array();
   for (const Frame& frame : frames) {
@@ -103,7 +112,8 @@ void add_frames(const std::vector<Frame>& frames, const Shown& shown, Json& json
       levels.u8(frame.active[at(e)] ? 1 + tension_level(frame.tension[at(e)], reference) : 0);
     for (std::size_t r = 0; r < frame.ring_center.size(); ++r) {
       shown.pack(frame.ring_center[r], rings);
-      for (int axis = 0; axis < 3; ++axis) rings.u16(std::lround((1 + frame.ring_normal[r][axis]) / 2 * kSteps));
+      for (int axis = 0; axis < 3; ++axis)
+        rings.u16(std::lround((1 + frame.ring_normal[r][axis]) / 2 * kSteps));
     }
   }
   json["positions"] = positions.text();
@@ -115,36 +125,42 @@ void add_bodies(const ResultModel& model, const Shown& shown, Json& json) {
   json["ringSizes"] = Json::array();
   for (const auto& ring : model.rings) json["ringSizes"].push_back({ring.radius, ring.wire_radius});
   json["balls"] = Json::array();
-  for (const auto& ball : model.balls) json["balls"].push_back({{"center", numbers(ball.center)}, {"radius", ball.radius}});
+  for (const auto& ball : model.balls)
+    json["balls"].push_back({{"center", numbers(ball.center)}, {"radius", ball.radius}});
   json["masses"] = Json::array();
   for (const auto& mass : model.masses) {
     const std::string last = mass.name.substr(mass.name.rfind('.') + 1);
     const bool split = last == "a" || last == "b";
     json["masses"].push_back({{"node", shown.number[at(mass.node)]},
-                              {"kind", last == "launcher" ? "launcher" : split ? "split" : "other"},
+                              {"kind", last == "launcher" ? "launcher"
+                                       : split            ? "split"
+                                                          : "other"},
                               {"from", split ? model.closing_time.value_or(0) : -1.0}});
   }
 }
 
 }  // namespace
 
-std::string net_view_json(const Result& result, const Camera& camera) {
+std::string net_view_json(const Result& result, const ResultModel& model, const Camera& camera) {
   if (result.frames() == 0) return "";
+  Shown shown(model, result.frame(0));
+  if (shown.nodes.size() > kMostNodes) return "";
   std::vector<Frame> frames;
-  for (const int k : chosen_frames(result.frames())) {
+  for (const int k : chosen_frames(result.frames(), shown.bytes_of_a_frame(model))) {
     frames.push_back(result.frame(k));
     frames.back().velocity.clear();  // not shown
     frames.back().contact_force.clear();
+    frames.back().strain.clear();
   }
-  Shown shown(result.model(), frames.front());
   shown.fit(frames);
-  Json json{{"nodes", shown.nodes.size()}, {"low", numbers(shown.low)}, {"size", shown.size}, {"steps", kSteps}};
+  Json json{
+      {"nodes", shown.nodes.size()}, {"low", numbers(shown.low)}, {"size", shown.size}, {"steps", kSteps}};
   json["high"] = numbers(shown.high);
   json["toward"] = numbers(camera.toward);
   json["up"] = numbers(camera.up);
-  add_elements(result.model(), shown, json);
+  add_elements(model, shown, json);
   add_frames(frames, shown, json);
-  add_bodies(result.model(), shown, json);
+  add_bodies(model, shown, json);
   return json.dump();
 }
 

@@ -21,10 +21,14 @@ string tag(const string& name, const string& inside, const string& look = "") {
 const char* look_of(Verdict verdict) {
   switch (verdict) {
     case Verdict::reproduced:
-    case Verdict::converges: return "good";
-    case Verdict::within_open_inputs: return "fair";
-    case Verdict::missing: return "none";
-    default: return "poor";
+    case Verdict::converges:
+      return "good";
+    case Verdict::within_open_inputs:
+      return "fair";
+    case Verdict::missing:
+      return "none";
+    default:
+      return "poor";
   }
 }
 
@@ -41,7 +45,8 @@ string difference(const VerdictRow& row) {
   if (!row.here) return "–";
   const bool bound = row.paper->rule == Rule::at_most || row.paper->rule == Rule::at_least;
   if (bound) {
-    return (row.paper->rule == Rule::at_most ? "≤ " : "≥ ") + html::quantity(row.paper->value, row.paper->unit, 2) + " asked";
+    return (row.paper->rule == Rule::at_most ? "≤ " : "≥ ") +
+           html::quantity(row.paper->value, row.paper->unit, 2) + " asked";
   }
   double off = *row.here - row.paper->value;
   if (std::abs(off) < 1e-3 * row.paper->tolerance) off = 0;
@@ -55,11 +60,13 @@ string difference(const VerdictRow& row) {
 
 // Rows of the same number for further results leave out what the first of them says.
 string table_row(const VerdictRow& row, bool several, bool again) {
-  string cells = again ? "<td></td><td></td>" : tag("td", escape(row.paper->what)) + tag("td", escape(row.paper->source), "soft");
-  if (several) cells += tag("td", escape(row.result), "soft");
+  string cells = again ? "<td></td><td></td>"
+                       : tag("td", escape(row.paper->what)) + tag("td", escape(row.paper->source), "soft");
+  if (several) cells += tag("td", escape(row.result), "result");
   cells += tag("td", again ? "" : paper_value(*row.paper), row.paper->paper.empty() ? "n" : "words");
   cells += tag("td", row.here ? html::quantity(*row.here, row.paper->unit) : "–", "n");
-  cells += tag("td", difference(row), "n") + tag("td", badge(row.verdict)) + tag("td", again ? "" : escape(row.note), "note");
+  cells += tag("td", difference(row), "n") + tag("td", badge(row.verdict)) +
+           tag("td", again ? "" : escape(row.note), "note");
   return tag("tr", cells, again ? "again" : "") + "\n";
 }
 
@@ -83,7 +90,8 @@ string sum_up(const std::vector<VerdictRow>& rows) {
   for (const VerdictRow& row : rows) ++count[row.verdict];
   string text;
   for (const auto& [verdict, n] : count)
-    text += (text.empty() ? "" : " ") + tag("span", std::to_string(n) + " " + words(verdict), string("badge ") + look_of(verdict));
+    text += (text.empty() ? "" : " ") +
+            tag("span", std::to_string(n) + " " + words(verdict), string("badge ") + look_of(verdict));
   return text;
 }
 
@@ -96,7 +104,8 @@ string lead(const std::vector<Digest>& results, const std::vector<VerdictRow>& r
   string status;
   for (const Digest& r : results)
     if (!r.summary || r.summary->status != "done")
-      status += tag("p", (results.size() > 1 ? escape(r.label()) + ": " : "") + escape(status_of(r)), "alarm");
+      status +=
+          tag("p", (results.size() > 1 ? escape(r.label()) + ": " : "") + escape(status_of(r)), "alarm");
   const string counts = rows.empty() ? "" : tag("p", "Paper against Cinch: " + sum_up(rows), "counts");
   return out + status + counts;
 }
@@ -105,40 +114,48 @@ string facts(const std::vector<Digest>& results) {
   std::vector<std::vector<Fact>> all;
   for (const Digest& d : results) all.push_back(facts_of(d));
   string head = "<th></th>", rows;
-  for (const Digest& d : results) head += tag("th", escape(results.size() > 1 ? d.label() : d.model.case_name));
+  for (const Digest& d : results)
+    head += tag("th", escape(results.size() > 1 ? d.label() : d.model.case_name));
   for (const string& name : fact_names(all)) {
     string cells = tag("th", escape(name));
     for (const auto& list : all) {
-      const auto found = std::find_if(list.begin(), list.end(), [&](const Fact& f) { return f.what == name; });
+      const auto found =
+          std::find_if(list.begin(), list.end(), [&](const Fact& f) { return f.what == name; });
       cells += found == list.end() ? tag("td", "–") : fact_cell(*found);
     }
     rows += tag("tr", cells) + "\n";
   }
-  return "<div class=\"scroll\">" + tag("table", tag("thead", tag("tr", head)) + tag("tbody", rows), "facts") + "</div>\n";
+  return "<div class=\"scroll\">" +
+         tag("table", tag("thead", tag("tr", head)) + tag("tbody", rows), "facts") + "</div>\n";
 }
 
 string paper_table(const std::vector<VerdictRow>& rows, bool several) {
   if (rows.empty()) return tag("p", "The paper gives no numbers for this case.", "soft");
   string head = tag("th", "Quantity") + tag("th", "Paper's") + (several ? tag("th", "Result") : "");
-  head += tag("th", "Paper", "n") + tag("th", "Cinch", "n") + tag("th", "Difference", "n") + tag("th", "Verdict") +
-          tag("th", "Sensitivity and notes");
+  head += tag("th", "Paper", "n") + tag("th", "Cinch", "n") + tag("th", "Difference", "n") +
+          tag("th", "Verdict") + tag("th", "Sensitivity and notes");
   string body;
   for (std::size_t i = 0; i < rows.size(); ++i)
-    body += table_row(rows[i], several, i > 0 && rows[i].paper == rows[i - 1].paper && rows[i].note == rows[i - 1].note);
-  return "<div class=\"scroll\">" + tag("table", tag("thead", tag("tr", head)) + tag("tbody", body), "paper") + "</div>\n";
+    body += table_row(rows[i], several,
+                      i > 0 && rows[i].paper == rows[i - 1].paper && rows[i].note == rows[i - 1].note);
+  return "<div class=\"scroll\">" +
+         tag("table", tag("thead", tag("tr", head)) + tag("tbody", body), "paper") + "</div>\n";
 }
 
 string plots(const std::vector<Plot>& list, std::size_t first) {
   string out;
   for (std::size_t i = 0; i < list.size(); ++i) {
     const Plot& plot = list[i];
-    const bool empty = std::all_of(plot.curves.begin(), plot.curves.end(), [](const Curve& c) { return c.points.empty(); });
-    string inside = tag("h3", escape(plot.title) + (plot.source.empty() ? "" : tag("span", " " + escape(plot.source), "soft")));
+    const bool empty =
+        std::all_of(plot.curves.begin(), plot.curves.end(), [](const Curve& c) { return c.points.empty(); });
+    string inside =
+        tag("h3",
+            escape(plot.title) + (plot.source.empty() ? "" : tag("span", " " + escape(plot.source), "soft")));
     if (empty) {
       inside += tag("p", escape(plot.note.empty() ? "Nothing recorded for this plot." : plot.note), "gap");
     } else {
-      inside += "<div class=\"canvas\"><canvas role=\"img\" aria-label=\"" + escape(plot.title) + "\" data-plot=\"" +
-                std::to_string(first + i) + "\"></canvas></div>";
+      inside += "<div class=\"canvas\"><canvas role=\"img\" aria-label=\"" + escape(plot.title) +
+                "\" data-plot=\"" + std::to_string(first + i) + "\"></canvas></div>";
       if (!plot.note.empty()) inside += tag("figcaption", escape(plot.note));
     }
     out += tag("figure", inside, "plot") + "\n";
@@ -153,12 +170,18 @@ string stages(const Summary& summary) {
   string rows;
   for (const auto& stage : summary.stages) {
     const double share = 100 * stage.seconds / total;
-    rows += tag("tr", tag("td", escape(stage.name)) + tag("td", html::quantity(stage.seconds, "s", 3), "n") +
-                          tag("td", html::number(share, 3) + "\u202f%", "n") +
-                          "<td class=\"bar\"><i style=\"width:" + std::to_string(static_cast<int>(share + 0.5)) + "%\"></i></td>") + "\n";
+    rows +=
+        tag("tr", tag("td", escape(stage.name)) + tag("td", html::quantity(stage.seconds, "s", 3), "n") +
+                      tag("td", html::number(share, 3) + "\u202f%", "n") +
+                      "<td class=\"bar\"><i style=\"width:" + std::to_string(static_cast<int>(share + 0.5)) +
+                      "%\"></i></td>") +
+        "\n";
   }
-  return tag("table", tag("thead", "<tr><th>Stage</th><th class=\"n\">Time</th><th class=\"n\">Share</th><th></th></tr>") +
-                          tag("tbody", rows), "stages");
+  return tag(
+      "table",
+      tag("thead", "<tr><th>Stage</th><th class=\"n\">Time</th><th class=\"n\">Share</th><th></th></tr>") +
+          tag("tbody", rows),
+      "stages");
 }
 
 string events(const Summary& summary) {
@@ -167,9 +190,13 @@ string events(const Summary& summary) {
   for (const Event& event : summary.events) {
     string kind = event.kind;
     std::replace(kind.begin(), kind.end(), '_', ' ');
-    rows += tag("tr", tag("td", html::quantity(event.time, "s", 5), "n") + tag("td", escape(kind)) + tag("td", escape(event.name))) + "\n";
+    rows += tag("tr", tag("td", html::quantity(event.time, "s", 5), "n") + tag("td", escape(kind)) +
+                          tag("td", escape(event.name))) +
+            "\n";
   }
-  return tag("table", tag("thead", "<tr><th class=\"n\">Time</th><th>Event</th><th>Of</th></tr>") + tag("tbody", rows), "events");
+  return tag("table",
+             tag("thead", "<tr><th class=\"n\">Time</th><th>Event</th><th>Of</th></tr>") + tag("tbody", rows),
+             "events");
 }
 
 string rings(const Summary& summary) {
@@ -182,10 +209,15 @@ string rings(const Summary& summary) {
     const bool touched = r.first_contact_time >= 0;
     rows += tag("tr", tag("td", escape(r.name)) + cell(r.first_contact_time, "s", touched) +
                           cell(r.first_contact_force, "N", touched) + cell(r.peak_time, "s", touched) +
-                          cell(r.peak_force, "N", touched)) + "\n";
+                          cell(r.peak_force, "N", touched)) +
+            "\n";
   }
-  return tag("table", tag("thead", "<tr><th>Ring</th><th class=\"n\">First contact</th><th class=\"n\">… force</th>"
-                                   "<th class=\"n\">Peak at</th><th class=\"n\">Peak force</th></tr>") + tag("tbody", rows), "rings");
+  return tag("table",
+             tag("thead",
+                 "<tr><th>Ring</th><th class=\"n\">First contact</th><th class=\"n\">… force</th>"
+                 "<th class=\"n\">Peak at</th><th class=\"n\">Peak force</th></tr>") +
+                 tag("tbody", rows),
+             "rings");
 }
 
 string reproduce(const std::vector<Digest>& results) {
@@ -195,22 +227,25 @@ string reproduce(const std::vector<Digest>& results) {
     const string commands = "cinch run " + name + ".toml --out results/" + name + " --threads " +
                             std::to_string(d.model.threads) + "\ncinch report results/" + name;
     out += tag("p", "Save the resolved case below as " + tag("code", escape(name + ".toml")) + ", then:") +
-           tag("pre", escape(commands)) +
-           "<details><summary>Resolved case" + (results.size() > 1 ? " of " + escape(d.label()) : "") + "</summary>" +
+           tag("pre", escape(commands)) + "<details><summary>Resolved case" +
+           (results.size() > 1 ? " of " + escape(d.label()) : "") + "</summary>" +
            tag("pre", escape(d.model.case_toml)) + "</details>\n";
   }
   return out;
 }
 
 string whole(const string& title, const string& body, const string& plots_json, const string& view_json) {
-  string out = "<!doctype html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
-               "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n"
-               "<link rel=\"icon\" href=\"data:,\">\n<title>" + escape(title) + "</title>\n<style>\n";
+  string out =
+      "<!doctype html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
+      "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n"
+      "<link rel=\"icon\" href=\"data:,\">\n<title>" +
+      escape(title) + "</title>\n<style>\n";
   out += assets::page_css();
   out += "</style>\n</head>\n<body>\n<main>\n" + body + "</main>\n";
   out += "<script type=\"application/json\" id=\"plots\">" + html::script_safe(plots_json) + "</script>\n";
   if (!view_json.empty()) {
-    out += "<script type=\"application/json\" id=\"net-view\">" + html::script_safe(view_json) + "</script>\n";
+    out +=
+        "<script type=\"application/json\" id=\"net-view\">" + html::script_safe(view_json) + "</script>\n";
     out += "<script>" + html::script_safe(assets::three_js()) + "</script>\n";
   }
   out += "<script>" + html::script_safe(assets::chart_js()) + "</script>\n";

@@ -102,7 +102,7 @@
         marks: {list: plot.marks},
         legend: {
           display: plot.curves.length > 1,
-          labels: {color: colour('ink'), usePointStyle: true, boxWidth: 22, padding: 10}
+          labels: {color: colour('ink'), usePointStyle: true, boxHeight: 6, boxWidth: 18, padding: 10}
         },
         tooltip: {callbacks: {title: items => items.length ? plot.x.split(',')[0] + ' = ' + items[0].parsed.x : ''}}
       }
@@ -154,7 +154,7 @@
       return body;
     });
     const ringBodies = bodies(view.ringSizes, ([radius, wire]) => {
-      const large = Math.max(radius, 0.6 * dot);  // small rings are drawn larger
+      const large = Math.max(radius, view.ringSizes.length > 100 ? 0 : 0.6 * dot);  // a few small rings are drawn larger
       return new THREE.Mesh(new THREE.TorusGeometry(large, Math.max(wire, large / 5), 8, 24),
           new THREE.MeshPhongMaterial({color: paint('ring')}));
     });

@@ -1,4 +1,5 @@
-// Every number of the paper that a run is compared with: value, place in the paper, and the tolerance that decides.
+// Every number of the paper that a run is compared with: value, place in the paper, and the tolerance that
+// decides.
 #pragma once
 #include <limits>
 #include <map>
@@ -19,15 +20,15 @@ enum class Rule {
 
 /// One row of the table "paper against Cinch".
 struct PaperNumber {
-  std::string_view key;      ///< "capture.first_touch"
-  std::string_view what;     ///< in words
-  std::string_view source;   ///< "Fig. 13", "Sec. 5.3"
+  std::string_view key;     ///< "capture.first_touch"
+  std::string_view what;    ///< in words
+  std::string_view source;  ///< "Fig. 13", "Sec. 5.3"
   Rule rule = Rule::near;
   double value = 0;
-  double tolerance = 0;      ///< in the unit of the value
-  std::string_view unit;     ///< empty: a plain number
-  std::string_view paper;    ///< what the paper says, where it gives words and no number
-  std::string_view note;     ///< how it is measured, which open inputs it hangs on
+  double tolerance = 0;    ///< in the unit of the value
+  std::string_view unit;   ///< empty: a plain number
+  std::string_view paper;  ///< what the paper says, where it gives words and no number
+  std::string_view note;   ///< how it is measured, which open inputs it hangs on
 };
 
 /// All rows, in the order of the table.
@@ -53,8 +54,5 @@ struct OpenRange {
   std::string note;  ///< which inputs, over which ranges
 };
 using Sensitivity = std::map<std::string, OpenRange, std::less<>>;
-
-/// Reads {"capture.first_touch": {"low": 1.44, "high": 1.47, "note": "alpha 0.05..0.3"}, ...}. Throws Error (usage).
-Sensitivity sensitivity_from_json(std::string_view text, const std::string& where);
 
 }  // namespace cinch

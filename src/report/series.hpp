@@ -15,8 +15,8 @@ struct Series {
   bool empty() const { return t.empty(); }
   /// Linear between samples, the end values outside; nan when empty.
   double at(double time) const;
-  /// The last value before `time` and the first one at or after it: what a jump at `time` is measured with. A sample
-  /// within `slack` of `time` counts as neither.
+  /// The last value before `time` and the first one at or after it: what a jump at `time` is measured with. A
+  /// sample within `slack` of `time` counts as neither.
   std::optional<double> jump_at(double time, double slack) const;
   /// First time after `from` at which the value passes from below `level` to `level` or more.
   std::optional<double> rises_through(double level, double from) const;
@@ -32,8 +32,8 @@ struct VectorSeries {
   Series norm() const;
 };
 
-/// At most `most` points of a series, keeping the least and the greatest value of each of most/2 stretches, so that
-/// spikes survive; first and last point stay.
+/// At most `most` points of a series, keeping the least and the greatest value of each of most/2 stretches,
+/// so that spikes survive; first and last point stay.
 Series thinned(const Series& series, std::size_t most = 3000);
 
 }  // namespace cinch

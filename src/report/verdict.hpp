@@ -13,9 +13,9 @@ enum class Verdict {
   reproduced,
   within_open_inputs,  ///< the paper's value lies in the range found over the inputs that it leaves open
   not_reproduced,
-  converges,           ///< near the converged solution, or nearer with each finer result
+  converges,  ///< near the converged solution, or nearer with each finer result
   not_converged,
-  missing              ///< the results at hand do not say
+  missing  ///< the results at hand do not say
 };
 
 const char* words(Verdict verdict);
@@ -32,6 +32,7 @@ struct VerdictRow {
 Verdict judge(const PaperNumber& paper, double here, const OpenRange* range = nullptr);
 
 /// All rows that apply to the case of the first result; results of other cases are left out.
-std::vector<VerdictRow> compare_with_paper(const std::vector<Digest>& results, const Sensitivity& sensitivity = {});
+std::vector<VerdictRow> compare_with_paper(const std::vector<Digest>& results,
+                                           const Sensitivity& sensitivity = {});
 
 }  // namespace cinch

@@ -107,6 +107,11 @@ class Assembler {
     out_.parts[static_cast<std::size_t>(part)].elements += 1;
     node(a).mass += mass / 2;
     node(b).mass += mass / 2;
+    latest_.resize(out_.nodes.size(), -1);
+    for (const Index end : {a, b}) {
+      earlier_.push_back(latest_[static_cast<std::size_t>(end)]);
+      latest_[static_cast<std::size_t>(end)] = static_cast<Index>(earlier_.size()) - 1;
+    }
   }
 
   void apply(const NodeSpec& spec, Index at, const std::string& name) {
@@ -273,12 +278,15 @@ class Assembler {
     fail(source, "'" + reference + "' is no mechanism, thread or net edge that a thread can be laid along");
   }
 
+  // The first element that joins a and b; walks those at a, the latest first.
   Index element_between(Index a, Index b) const {
-    for (Index e = 0; e < element_count(); ++e) {
-      const AssemblyElement& item = out_.elements[static_cast<std::size_t>(e)];
-      if ((item.a == a && item.b == b) || (item.a == b && item.b == a)) return e;
+    Index found = -1;
+    for (Index half = latest_[static_cast<std::size_t>(a)]; half >= 0;
+         half = earlier_[static_cast<std::size_t>(half)]) {
+      const AssemblyElement& item = out_.elements[static_cast<std::size_t>(half / 2)];
+      if (item.a == b || item.b == b) found = half / 2;
     }
-    return -1;
+    return found;
   }
 
   Carrier carrier_of(const Thread& thread) {
@@ -452,6 +460,8 @@ class Assembler {
 
   const Scene& scene_;
   Assembly out_;
+  // incident elements as linked lists: half 2 e or 2 e + 1 of element e, and the half before it at the same node
+  std::vector<Index> latest_, earlier_;
 };
 
 }  // namespace

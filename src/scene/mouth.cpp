@@ -1,4 +1,4 @@
-#include "plan/mouth.hpp"
+#include "scene/mouth.hpp"
 
 #include <algorithm>
 #include <cmath>

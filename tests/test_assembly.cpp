@@ -1,0 +1,59 @@
+// The assembly: where closing threads lie and rings sit, when more than one element joins two nodes.
+#include <gtest/gtest.h>
+
+#include "input/case_reader.hpp"
+#include "scene/assembly.hpp"
+
+namespace cinch {
+namespace {
+
+const char* const two_ways = R"(schema = 1
+[time]
+end_s = 1
+[closing]
+time_s = 0.5
+[material.m]
+youngs_modulus_Pa = 1e9
+density_kg_m3 = 1000
+[net.main]
+material = "m"
+diameter_m = 0.002
+size_m = [0.2, 0.2]
+mesh_m = 0.1
+[thread.detour]                # a second, longer way between the knots of the first cell of the top edge
+material = "m"
+diameter_m = 0.002
+elements = 1
+points_m = [[-0.1, 0.1, 0], [0, 0.1, 0]]
+length_m = 0.3
+start = { on = "net.main.knot.0.2" }
+end = { on = "net.main.knot.1.2" }
+[thread.c]
+material = "m"
+diameter_m = 0.002
+elements = 4
+along = ["net.main.top"]
+[ring.r]
+diameter_m = 0.02
+wire_diameter_m = 0.004
+mass_kg = 0.001
+youngs_modulus_Pa = 70e9
+on = "net.main.top"
+element = 0
+)";
+
+TEST(Assembly, AnEdgeIsTheNetsOwnElementsEvenWhereAThreadRunsBesideIt) {
+  const Assembly assembly = assemble(parse_case(two_ways, "two_ways.toml"));
+  const Part& net = assembly.parts[0];
+  ASSERT_EQ(net.kind, PartKind::net);
+  EXPECT_GE(assembly.rings[0].element, net.first_element);
+  EXPECT_LT(assembly.rings[0].element, net.first_element + net.elements);
+  // 0.2 m of edge in four elements; inner nodes at quarters of it
+  for (const AssemblyElement& e : assembly.elements)
+    if (assembly.parts[static_cast<std::size_t>(e.part)].name == "c") EXPECT_DOUBLE_EQ(e.rest_length, 0.05);
+  EXPECT_DOUBLE_EQ(assembly.lays[1].s, 0.5);
+  EXPECT_DOUBLE_EQ(assembly.lays[3].s, 0.5);
+}
+
+}  // namespace
+}  // namespace cinch
