@@ -1,0 +1,313 @@
+// The same bits for any number of threads, any instruction set, with frames taken on the way or not.
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <bit>
+#include <cstdlib>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "input/case_reader.hpp"
+#include "plan/simulation.hpp"
+#include "store/fields.hpp"
+
+namespace {
+
+using namespace cinch;
+using Sets = std::vector<Override>;
+
+// ----------------------------------------------------------------------------------------------------
+// Scenes that close and touch within some thousand steps
+
+struct Case {
+  const char* name;
+  Sets sets;
+  std::int64_t steps;
+};
+
+std::string case_file(const Case& one) {
+  return std::string(CINCH_SOURCE_DIR) + "/cases/" + one.name + ".toml";
+}
+
+Scene read(const Case& one) { return read_case(case_file(one), one.sets); }
+
+// The thread starts 0.1 mm from the wire.
+Case ring_pull() {
+  return {
+      "ring_pull", {{"thread.main.velocity_m_s", "[0, 0, -1]"}, {"ring.r1.center_m", "[0, 0, 0.0069]"}}, 400};
+}
+
+// The masses fall under 100 g, the rings are narrow.
+Case edge_closure() {
+  return {"edge_closure",
+          {{"gravity.acceleration_m_s2", "[0, 0, -981]"}, {"rings.r.diameter_m", "0.0043"}},
+          1200};
+}
+
+// Deployed, at the ball, narrow rings, fast split masses: closes at step 100.
+Case capture() {
+  Case one{"capture",
+           {{"net.main.stowed_factor", "1"},
+            {"closing.time_s", "0.0001"},
+            {"rings.r.diameter_m", "0.0062"},
+            {"target.ball.center_m", "[0.05, 0, 0.1505]"}},
+           1000};
+  const char* const ways[4][2] = {{"[-10, -10, 0]", "[10, 10, 0]"},
+                                  {"[-10, 10, 0]", "[10, -10, 0]"},
+                                  {"[10, 10, 0]", "[-10, -10, 0]"},
+                                  {"[10, -10, 0]", "[-10, 10, 0]"}};
+  for (std::size_t m = 0; m < 4; ++m) {
+    const std::string mechanism = "mechanism.m" + std::to_string(m + 1);
+    one.sets.push_back({mechanism + ".separation_a_m_s", ways[m][0]});
+    one.sets.push_back({mechanism + ".separation_b_m_s", ways[m][1]});
+  }
+  return one;
+}
+
+// The large capture at 0.5 m instead of 20 m, with narrow rings.
+Case small_large_capture() {
+  Case one{"large_capture",
+           {{"net.main.size_m", "[0.5, 0.5]"},
+            {"closing.time_s", "0.0002"},
+            {"rings.r.diameter_m", "0.0142"},
+            {"target.ball.radius_m", "0.2"},
+            {"target.ball.center_m", "[0.05, 0.05, 0.2008]"}},
+           800};
+  for (const char* thread : {"c_top", "c_right", "c_bottom", "c_left"}) {
+    one.sets.push_back({std::string("thread.") + thread + ".elements", "70"});
+    one.sets.push_back({std::string("thread.") + thread + ".length_m", "0.7"});
+  }
+  for (const char* mechanism : {"m1", "m2", "m3", "m4"}) {
+    one.sets.push_back({std::string("mechanism.") + mechanism + ".towing_length_m", "0.1"});
+    one.sets.push_back({std::string("mechanism.") + mechanism + ".towing_elements", "1"});
+  }
+  return one;
+}
+
+// The large capture in full size: hundreds of blocks, few steps.
+Case full_large_capture() {
+  return {"large_capture", {{"closing.time_s", "0.00004"}, {"target.ball.center_m", "[0, 0, 3.0005]"}}, 60};
+}
+
+// ----------------------------------------------------------------------------------------------------
+// Everything that a run has computed, as bits
+
+template <class List>
+void append(std::string& bits, const List& list) {
+  static_assert(std::has_unique_object_representations_v<typename List::value_type> ||
+                    std::is_trivially_copyable_v<typename List::value_type>,
+                "plain data without pointers");
+  bits.append(reinterpret_cast<const char*>(list.data()), list.size() * sizeof(typename List::value_type));
+}
+
+static_assert(sizeof(kernel::RingTally) == 15 * sizeof(double) + 2 * sizeof(int),
+              "no padding between its fields");
+
+struct Outcome {
+  std::uint64_t hash = 0;
+  std::string nodes, rings, reactions, dissipated, energies, frame;
+  double ball_impulse = 0;
+  std::size_t rings_touched = 0;
+  bool ball_touched = false, closed = false;
+
+  bool operator==(const Outcome&) const = default;
+};
+
+Outcome outcome_of(Simulation& simulation) {
+  Outcome out;
+  const Frame frame = simulation.frame();  // brings all tallies to the present step
+  const State& s = simulation.state();
+  out.hash = state_hash(s);
+  for (const auto* field : {&s.x, &s.y, &s.z, &s.vx, &s.vy, &s.vz}) append(out.nodes, *field);
+  append(out.rings, s.rings);
+  append(out.reactions, s.reactions);
+  append(out.dissipated, s.dissipated);
+  append(out.energies, frame.energy.values());
+  append(out.frame, frame.tension);
+  for (const auto* field : {&frame.position, &frame.velocity, &frame.contact_force, &frame.ring_force})
+    for (const Vec3& v : *field) append(out.frame, std::vector<double>{v.x(), v.y(), v.z()});
+  for (const auto& ball : s.balls)
+    for (const kernel::BallTally& tally : ball) {
+      out.ball_impulse +=
+          tally.impulse[0] + 3 * tally.impulse[1] + 7 * tally.impulse[2] + 11 * tally.dissipated;
+      out.ball_touched = out.ball_touched || tally.first_time >= 0;
+    }
+  for (const kernel::RingTally& ring : s.rings) out.rings_touched += ring.first_time >= 0;
+  out.closed = simulation.closed_phase();
+  return out;
+}
+
+Outcome run(const Case& one, int threads) {
+  Simulation simulation(read(one), threads);
+  simulation.advance_to(one.steps);
+  EXPECT_EQ(simulation.threads(), threads);
+  return outcome_of(simulation);
+}
+
+void expect_same(const Outcome& a, const Outcome& b) {
+  EXPECT_EQ(a.hash, b.hash);
+  EXPECT_TRUE(a.nodes == b.nodes) << "node fields";
+  EXPECT_TRUE(a.rings == b.rings) << "ring tallies";
+  EXPECT_TRUE(a.reactions == b.reactions) << "reactions";
+  EXPECT_TRUE(a.dissipated == b.dissipated) << "energy lost in dampers";
+  EXPECT_TRUE(a.energies == b.energies) << "energies";
+  EXPECT_TRUE(a.frame == b.frame) << "frame";
+  EXPECT_TRUE(a == b) << "anything else";
+}
+
+void expect_same_for_all_threads(const Case& one, const std::vector<int>& numbers, std::size_t rings,
+                                 bool ball) {
+  const Outcome serial = run(one, 1);
+  EXPECT_TRUE(serial.closed);
+  EXPECT_GE(serial.rings_touched, rings) << "the scene must reach contacts";
+  EXPECT_EQ(serial.ball_touched, ball);
+  for (int round = 0; round < 2; ++round)
+    for (const int threads : numbers) {
+      SCOPED_TRACE(std::to_string(threads) + " threads, round " + std::to_string(round));
+      expect_same(run(one, threads), serial);
+    }
+}
+
+TEST(Determinism, RingPull) { expect_same_for_all_threads(ring_pull(), {1, 2, 3, 4, 7}, 1, false); }
+TEST(Determinism, EdgeClosure) { expect_same_for_all_threads(edge_closure(), {1, 2, 3, 4, 7}, 4, false); }
+TEST(Determinism, Capture) { expect_same_for_all_threads(capture(), {1, 2, 3, 4, 7}, 8, true); }
+TEST(Determinism, SmallLargeCapture) {
+  expect_same_for_all_threads(small_large_capture(), {1, 2, 3, 4, 7}, 8, true);
+}
+TEST(Determinism, FullLargeCapture) { expect_same_for_all_threads(full_large_capture(), {2, 7}, 0, true); }
+
+// ----------------------------------------------------------------------------------------------------
+// Looking changes nothing
+
+TEST(Determinism, FramesOnTheWayChangeNothing) {
+  for (const Case& one : {ring_pull(), edge_closure(), capture(), small_large_capture()}) {
+    SCOPED_TRACE(one.name);
+    Simulation looked_at(read(one), 1);
+    for (std::int64_t step = 0; step < one.steps; step = std::min(step + 37, one.steps)) {
+      looked_at.advance_to(step);
+      const State before = looked_at.state();
+      const Frame frame = looked_at.frame();
+      looked_at.note_events(frame);
+      looked_at.summary();
+      ASSERT_TRUE(before.x == looked_at.state().x && before.vz == looked_at.state().vz &&
+                  before.dissipated == looked_at.state().dissipated);
+    }
+    looked_at.advance_to(one.steps);
+    expect_same(outcome_of(looked_at), run(one, 1));
+  }
+}
+
+TEST(Determinism, StretchesOfAnyLengthGiveTheSame) {
+  const Case one = capture();
+  Simulation in_bits(read(one), 1);
+  std::int64_t step = 0;
+  for (std::int64_t stretch = 1; step < one.steps; stretch = stretch % 97 + 5)
+    in_bits.advance_to(step = std::min(step + stretch, one.steps));
+  expect_same(outcome_of(in_bits), run(one, 1));
+}
+
+// ----------------------------------------------------------------------------------------------------
+// The hash
+
+// FNV-1a, 64 bits: offset basis and prime of the published definition.
+struct Fnv {
+  std::uint64_t value = 14695981039346656037ULL;
+  void byte(unsigned char b) { value = (value ^ b) * 1099511628211ULL; }
+  void word(std::uint64_t w) {
+    for (unsigned shift = 0; shift < 64; shift += 8) byte(static_cast<unsigned char>(w >> shift));
+  }
+};
+
+std::uint64_t hash_of(const State& s) {
+  Fnv hash;
+  hash.word(static_cast<std::uint64_t>(s.step));
+  for (const auto* field : {&s.x, &s.y, &s.z, &s.vx, &s.vy, &s.vz})
+    for (const double value : *field) hash.word(std::bit_cast<std::uint64_t>(value));
+  return hash.value;
+}
+
+TEST(StateHash, IsFnv1aOverStepAndNodeFields) {
+  Fnv known;  // the published value of "a"
+  known.byte('a');
+  ASSERT_EQ(known.value, 0xaf63dc4c8601ec8cULL);
+  Simulation simulation(read(capture()), 1);
+  simulation.advance_to(150);
+  EXPECT_EQ(state_hash(simulation.state()), hash_of(simulation.state()));
+  EXPECT_EQ(simulation.summary().state_hash, hash_of(simulation.state()));
+}
+
+TEST(StateHash, SeesEveryBit) {
+  Simulation simulation(read(ring_pull()), 1);
+  State state = simulation.state();
+  const std::uint64_t hash = state_hash(state);
+  for (const auto field : {&State::x, &State::y, &State::z, &State::vx, &State::vy, &State::vz}) {
+    State changed = state;
+    double& last = (changed.*field).back();
+    last = std::bit_cast<double>(std::bit_cast<std::uint64_t>(last) ^ 1);
+    EXPECT_NE(state_hash(changed), hash);
+  }
+  state.step += 1;
+  EXPECT_NE(state_hash(state), hash);
+}
+
+// ----------------------------------------------------------------------------------------------------
+// Instruction sets, through the program
+
+bool machine_has(const std::string& isa) {
+#if defined(__x86_64__)
+  if (isa == "v3") return __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma");
+  if (isa == "v4")
+    return __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512vl") &&
+           __builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("avx512bw");
+#endif
+  return isa == "base";
+}
+
+class InstructionSets : public testing::TestWithParam<const char*> {
+ protected:
+  void SetUp() override {
+    folder_ = std::filesystem::temp_directory_path() /
+              ("cinch_isa_" + std::string(GetParam()) + "_" + std::to_string(getpid()));
+    std::filesystem::create_directories(folder_);
+  }
+  void TearDown() override { std::filesystem::remove_all(folder_); }
+
+  nlohmann::json summary(const Case& one, const std::string& isa) const {
+    const std::filesystem::path out = folder_ / (std::string(one.name) + "_" + isa);
+    std::string command = "CINCH_ISA=" + isa + " '" + CINCH_PROGRAM + "' run '" + case_file(one) +
+                          "' --quiet --out '" + out.string() + "' --threads 1";
+    for (const Override& set : one.sets) command += " --set '" + set.key + "=" + set.value + "'";
+    command += " --set time.end_s=" + std::to_string(1e-6 * static_cast<double>(one.steps));
+    EXPECT_EQ(std::system((command + " > '" + (folder_ / "log").string() + "' 2>&1").c_str()), 0) << command;
+    std::ifstream file(out / "summary.json");
+    return nlohmann::json::parse(file);
+  }
+
+ private:
+  std::filesystem::path folder_;
+};
+
+TEST_P(InstructionSets, GiveTheSameHash) {
+  const std::string isa = GetParam();
+  if (!machine_has(isa)) GTEST_SKIP() << "this machine has no x86-64-" << isa;
+  for (const Case& one : {ring_pull(), edge_closure(), capture(), small_large_capture()}) {
+    SCOPED_TRACE(one.name);
+    const nlohmann::json base = summary(one, "base"), other = summary(one, isa);
+    EXPECT_EQ(base.at("isa"), "base");
+    if (other.at("isa") != isa) GTEST_SKIP() << "this build has no kernels for x86-64-" << isa;
+    EXPECT_EQ(base.at("state_hash"), other.at("state_hash"));
+    EXPECT_EQ(base.at("energy"), other.at("energy"));
+    EXPECT_EQ(base.at("rings"), other.at("rings"));
+    EXPECT_EQ(base.at("max_penetration"), other.at("max_penetration"));
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(X86, InstructionSets, testing::Values("v3", "v4"),
+                         [](const auto& isa) { return std::string(isa.param); });
+
+}  // namespace

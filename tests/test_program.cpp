@@ -1,0 +1,419 @@
+// The program itself, driven as a user drives it: exit codes, files, messages, signals.
+#include <fcntl.h>
+#include <gtest/gtest.h>
+#include <signal.h>
+#include <spawn.h>
+#include <sys/stat.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "output/result_reader.hpp"
+
+namespace {
+
+namespace fs = std::filesystem;
+using Words = std::vector<std::string>;
+using Json = nlohmann::json;
+
+std::string text_of(const fs::path& file) {
+  std::ifstream in(file, std::ios::binary);
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+
+bool has(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
+
+// A thread with a ring beside it: quick, with contact from step 100 on.
+const char* const tiny_case = R"(schema = 1
+[case]
+title = "Tiny"
+[time]
+end_s = 0.001
+step_s = 1e-6
+[output]
+frame_interval_s = 1e-4
+probe_interval_s = 5e-5
+[material.m]
+youngs_modulus_Pa = 1e9
+density_kg_m3 = 970
+[thread.main]
+material = "m"
+diameter_m = 0.002
+elements = 100
+points_m = [[0, -0.1, 0], [0, 0.4, 0]]
+velocity_m_s = [0, 0, -1]
+start = { mass_kg = 0.1 }
+end = { support = "fixed" }
+[ring.r1]
+diameter_m = 0.02
+wire_diameter_m = 0.004
+mass_kg = 0.1
+youngs_modulus_Pa = 70e9
+center_m = [0, 0, 0.0069]
+normal = [0, 1, 0]
+support = "guided"
+axis = [0, 1, 0]
+[probe.force]
+quantity = "force"
+of = "ring.r1"
+)";
+
+// Minutes of work, the ring out of the way.
+const Words endless{"run",   "tiny.toml",
+                    "--set", "time.end_s=100",
+                    "--set", "output.frame_interval_s=0.01",
+                    "--set", "ring.r1.center_m=[1, 0, 0]",
+                    "--out", "r"};
+
+class Program : public testing::Test {
+ protected:
+  void SetUp() override {
+    folder_ = fs::temp_directory_path() / ("cinch_program_" + std::to_string(getpid()));
+    fs::remove_all(folder_);
+    fs::create_directories(folder_);
+    write("tiny.toml", tiny_case);
+  }
+  void TearDown() override { fs::remove_all(folder_); }
+
+  fs::path path(const std::string& name) const { return folder_ / name; }
+  void write(const std::string& name, const std::string& text) const { std::ofstream(path(name)) << text; }
+
+  // Starts the program in the test's folder; its output goes to the files "out" and "err" there.
+  pid_t start(const Words& words) const {
+    Words all{"sh", "-c", "cd \"$0\" && exec \"$@\"", folder_.string(), CINCH_PROGRAM};
+    all.insert(all.end(), words.begin(), words.end());
+    std::vector<char*> arguments;
+    for (std::string& word : all) arguments.push_back(word.data());
+    arguments.push_back(nullptr);
+    posix_spawn_file_actions_t files;
+    posix_spawn_file_actions_init(&files);
+    const int flags = O_WRONLY | O_CREAT | O_TRUNC;
+    posix_spawn_file_actions_addopen(&files, 0, "/dev/null", O_RDONLY, 0);
+    posix_spawn_file_actions_addopen(&files, 1, path("out").c_str(), flags, 0644);
+    posix_spawn_file_actions_addopen(&files, 2, path("err").c_str(), flags, 0644);
+    pid_t child = -1;
+    EXPECT_EQ(posix_spawn(&child, "/bin/sh", &files, nullptr, arguments.data(), environ), 0);
+    posix_spawn_file_actions_destroy(&files);
+    return child;
+  }
+
+  static int wait_for(pid_t child) {
+    int status = 0;
+    waitpid(child, &status, 0);
+    return WIFEXITED(status) ? WEXITSTATUS(status) : 1000 + WTERMSIG(status);
+  }
+
+  int run(const Words& words) const { return wait_for(start(words)); }
+  std::string out() const { return text_of(path("out")); }
+  std::string err() const { return text_of(path("err")); }
+  Json summary(const std::string& name) const { return Json::parse(text_of(path(name) / "summary.json")); }
+
+  // Changes one line of the tiny case.
+  std::string with(const std::string& line, const std::string& other) const {
+    std::string text = tiny_case;
+    const auto found = text.find(line);
+    EXPECT_NE(found, std::string::npos);
+    return text.replace(found, line.size(), other);
+  }
+
+ private:
+  fs::path folder_;
+};
+
+// ----------------------------------------------------------------------------------------------------
+// A run that ends well
+
+TEST_F(Program, RunWritesItsThreeFiles) {
+  ASSERT_EQ(run({"run", "tiny.toml", "--out", "r"}), 0) << err();
+  EXPECT_TRUE(fs::exists(path("r/run.vtkhdf")));
+  EXPECT_TRUE(fs::exists(path("r/run.xdmf")));
+  const cinch::Result result(path("r"));
+  EXPECT_EQ(result.frames(), 11);
+  EXPECT_EQ(result.probe_times().size(), 21u);
+  EXPECT_EQ(result.frame_steps().front(), 0);
+  EXPECT_EQ(result.frame_steps().back(), 1000);
+  EXPECT_EQ(result.frame_steps()[3], 300);
+  EXPECT_TRUE(has(out(), "results: r")) << out();
+  EXPECT_EQ(text_of(path("r/run.xdmf")).substr(0, 5), "<?xml");
+}
+
+TEST_F(Program, SummaryHoldsEveryField) {
+  ASSERT_EQ(run({"run", "tiny.toml", "--out", "r", "--quiet", "--threads", "1"}), 0) << err();
+  const Json s = summary("r");
+  for (const char* name : {"status",
+                           "case",
+                           "version",
+                           "threads",
+                           "steps",
+                           "time_step",
+                           "simulated_seconds",
+                           "wall_seconds",
+                           "minutes_per_simulated_second",
+                           "nodes",
+                           "elements",
+                           "rings",
+                           "stable_step",
+                           "stable_step_limited_by",
+                           "state_hash",
+                           "energy",
+                           "momentum",
+                           "max_penetration",
+                           "stages",
+                           "events"})
+    EXPECT_TRUE(s.contains(name)) << name;
+  EXPECT_EQ(s.at("status"), "done");
+  EXPECT_EQ(s.at("case"), "tiny");
+  EXPECT_EQ(s.at("threads"), 1);
+  EXPECT_EQ(s.at("steps"), 1000);
+  EXPECT_EQ(s.at("time_step"), 1e-6);
+  EXPECT_NEAR(s.at("simulated_seconds"), 1e-3, 1e-15);
+  EXPECT_GT(s.at("wall_seconds"), 0);
+  EXPECT_NEAR(s.at("minutes_per_simulated_second").get<double>(),
+              s.at("wall_seconds").get<double>() / 60 / 1e-3, 1e-6);
+  EXPECT_EQ(s.at("nodes"), 102);
+  EXPECT_EQ(s.at("elements"), 100);
+  EXPECT_GT(s.at("stable_step"), 3e-6);
+  EXPECT_TRUE(has(s.at("stable_step_limited_by"), "thread.main"));
+  EXPECT_TRUE(has(s.at("state_hash"), "0x"));
+  for (const char* name :
+       {"kinetic", "elastic", "contact", "gravity", "dissipated_damper", "dissipated_contact",
+        "work_separation", "booked_activation", "booked_couple", "residual", "relative_residual"})
+    EXPECT_TRUE(s.at("energy").at(name).is_number()) << name;
+  EXPECT_LT(s.at("energy").at("relative_residual"), 1e-4);
+  EXPECT_LT(s.at("momentum").at("linear_drift"), 1e-12);
+  EXPECT_GT(s.at("max_penetration"), 0);
+  ASSERT_FALSE(s.at("stages").empty());
+  for (const Json& stage : s.at("stages"))
+    EXPECT_TRUE(stage.at("name").is_string() && stage.at("seconds").is_number() &&
+                stage.at("share").is_number());
+  ASSERT_EQ(s.at("rings").size(), 1u);
+  const Json& ring = s.at("rings").front();
+  EXPECT_EQ(ring.at("name"), "r1");
+  EXPECT_NEAR(ring.at("first_contact_time"), 1e-4, 3e-6);
+  EXPECT_GT(ring.at("first_contact_force"), 0);
+  EXPECT_GE(ring.at("peak_force"), ring.at("first_contact_force"));
+  EXPECT_GE(ring.at("peak_time"), ring.at("first_contact_time"));
+  ASSERT_EQ(s.at("events").size(), 1u);
+  EXPECT_EQ(s.at("events").front().at("kind"), "ring_contact");
+  EXPECT_EQ(s.at("events").front().at("time"), ring.at("first_contact_time"));
+}
+
+TEST_F(Program, ProgressIsPlainWithoutATerminal) {
+  ASSERT_EQ(run({"run", "tiny.toml", "--out", "r"}), 0);
+  EXPECT_FALSE(has(err(), "\r") || has(err(), "\033") || has(out(), "\r") || has(out(), "\033"));
+  ASSERT_EQ(run({"run", "tiny.toml", "--out", "q", "--quiet"}), 0);
+  EXPECT_EQ(err(), "");
+  EXPECT_FALSE(has(out(), "residual")) << "no verdict: " << out();
+}
+
+// Lines come every 10 s without a terminal.
+TEST_F(Program, LongRunsTellTheirProgressInLines) {
+  const pid_t child = start(endless);
+  for (int k = 0; k < 300 && err().empty(); ++k) std::this_thread::sleep_for(std::chrono::milliseconds(100));
+  kill(child, SIGTERM);
+  EXPECT_EQ(wait_for(child), 143);
+  const std::string lines = err();
+  EXPECT_TRUE(has(lines, "t = ") && has(lines, "steps/s") && has(lines, "left") && lines.ends_with("\n"))
+      << lines;
+  EXPECT_FALSE(has(lines, "\r") || has(lines, "\033"));
+}
+
+TEST_F(Program, WithoutOutTheNextFreeFolderIsTaken) {
+  ASSERT_EQ(run({"run", "tiny.toml", "--quiet"}), 0);
+  ASSERT_EQ(run({"run", "tiny.toml", "--quiet"}), 0);
+  EXPECT_TRUE(fs::exists(path("results/tiny/summary.json")));
+  EXPECT_TRUE(fs::exists(path("results/tiny-2/summary.json")));
+}
+
+TEST_F(Program, CompareTellsEqualFromDifferent) {
+  write("tiny.toml", with("end_s = 0.001", "end_s = 0.0003"));
+  ASSERT_EQ(run({"run", "tiny.toml", "--out", "a", "--quiet"}), 0);
+  ASSERT_EQ(run({"run", "tiny.toml", "--out", "b", "--quiet", "--threads", "2"}), 0);
+  ASSERT_EQ(
+      run({"run", "tiny.toml", "--out", "c", "--quiet", "--set", "thread.main.start.mass_kg=0.1000001"}), 0);
+  EXPECT_EQ(summary("b").at("threads"), 2);
+  EXPECT_EQ(run({"compare", "a", "a"}), 0);
+  EXPECT_EQ(run({"compare", "a", "b"}), 0) << out();
+  EXPECT_TRUE(has(out(), "identical")) << out();
+  EXPECT_EQ(run({"compare", "a", "c"}), 5);
+  EXPECT_FALSE(has(out(), "identical")) << out();
+  EXPECT_EQ(run({"compare", "a", "nowhere"}), 4);
+}
+
+TEST_F(Program, CheckSaysWhatACaseWouldDo) {
+  ASSERT_EQ(run({"check", "tiny.toml"}), 0) << err();
+  const std::string text = out();
+  EXPECT_TRUE(has(text, "102 nodes, 100 elements, 1 rings")) << text;
+  EXPECT_TRUE(has(text, "stable step") && has(text, "thread.main"));
+  EXPECT_TRUE(has(text, "1000 steps"));
+  for (const char* stage : {"target contact", "gravity"}) {
+    const auto at = text.find(stage);
+    ASSERT_NE(at, std::string::npos) << stage;
+    const std::string line = text.substr(text.rfind('\n', at) + 1, at - text.rfind('\n', at) - 1);
+    EXPECT_TRUE(has(line, "left out")) << line << stage;
+  }
+  const auto rings = text.find("ring contact");
+  ASSERT_NE(rings, std::string::npos);
+  EXPECT_TRUE(has(text.substr(text.rfind('\n', rings), 12), "runs"));
+  EXPECT_TRUE(has(text, "the case is valid"));
+  EXPECT_FALSE(fs::exists(path("results"))) << "a check writes nothing";
+  ASSERT_EQ(run({"check", "tiny.toml", "--resolved"}), 0);
+  EXPECT_TRUE(has(out(), "alpha_ring_s_m"));
+}
+
+TEST_F(Program, AResolvedCaseRunsToTheSameBits) {
+  ASSERT_EQ(run({"check", "tiny.toml", "--resolved"}), 0);
+  write("resolved.toml", out());
+  ASSERT_EQ(run({"run", "tiny.toml", "--out", "a", "--quiet"}), 0);
+  ASSERT_EQ(run({"run", "resolved.toml", "--out", "b", "--quiet"}), 0) << err();
+  EXPECT_EQ(summary("a").at("state_hash"), summary("b").at("state_hash"));
+}
+
+// ----------------------------------------------------------------------------------------------------
+// Mistakes: exit code 2, a message, nothing written
+
+TEST_F(Program, AnUnknownKeyIsNamedWithItsPlace) {
+  write("bad.toml", with("elements = 100", "elments = 100"));
+  EXPECT_EQ(run({"run", "bad.toml", "--out", "r"}), 2);
+  EXPECT_TRUE(has(err(), "bad.toml:16:1: error")) << err();
+  EXPECT_TRUE(has(err(), "'elements'")) << "the nearest key: " << err();
+  EXPECT_FALSE(fs::exists(path("r")));
+  EXPECT_EQ(run({"check", "bad.toml"}), 2);
+}
+
+TEST_F(Program, AStepAboveTheBoundIsRefused) {
+  EXPECT_EQ(run({"run", "tiny.toml", "--set", "time.step_s=1e-5", "--out", "r"}), 2);
+  EXPECT_TRUE(has(err(), "element ") && has(err(), "thread.main") && has(err(), "largest step that works"))
+      << err();
+  EXPECT_FALSE(fs::exists(path("r")));
+  // the step that the message offers works
+  const std::string words = "largest step that works is ";
+  const auto at = err().find(words);
+  ASSERT_NE(at, std::string::npos);
+  const double step = std::strtod(err().c_str() + at + words.size(), nullptr);
+  EXPECT_GT(step, 1e-6);
+  EXPECT_EQ(run({"check", "tiny.toml", "--set", "time.step_s=" + std::to_string(step * 1e6) + "e-6", "--set",
+                 "ring.r1.center_m=[1, 0, 0]"}),
+            0)
+      << err();
+}
+
+TEST_F(Program, UsageErrors) {
+  EXPECT_EQ(run({}), 2);
+  EXPECT_EQ(run({"simulate", "tiny.toml"}), 2);
+  EXPECT_EQ(run({"rum", "tiny.toml"}), 2);
+  EXPECT_TRUE(has(err(), "'run'")) << "the nearest command: " << err();
+  EXPECT_EQ(run({"run"}), 2);
+  EXPECT_EQ(run({"run", "tiny.toml", "--frobnicate"}), 2);
+  EXPECT_EQ(run({"run", "tiny.toml", "--threads", "0"}), 2);
+  EXPECT_EQ(run({"run", "tiny.toml", "--set", "nonsense", "--out", "r"}), 2);
+  EXPECT_EQ(run({"run", "tiny.toml", "--set", "thread.other.elements=3", "--out", "r"}), 2);
+  EXPECT_EQ(run({"run", "missing.toml", "--out", "r"}), 2);
+  EXPECT_TRUE(has(err(), "missing.toml")) << err();
+  EXPECT_FALSE(fs::exists(path("r")));
+}
+
+TEST_F(Program, HelpAndVersion) {
+  EXPECT_EQ(run({"--help"}), 0);
+  for (const char* command : {"run", "check", "info", "report", "compare"}) EXPECT_TRUE(has(out(), command));
+  EXPECT_EQ(run({"--version"}), 0);
+  EXPECT_TRUE(has(out(), "cinch"));
+}
+
+// ----------------------------------------------------------------------------------------------------
+// Files: exit code 4
+
+TEST_F(Program, AFolderThatCannotBeWritten) {
+  write("file", "no folder");
+  EXPECT_EQ(run({"run", "tiny.toml", "--out", "file/r"}), 4);
+  EXPECT_TRUE(has(err(), "file/r")) << err();
+  if (geteuid() == 0) return;  // nothing is closed to root
+  fs::create_directory(path("closed"));
+  chmod(path("closed").c_str(), 0555);
+  EXPECT_EQ(run({"run", "tiny.toml", "--out", "closed/r"}), 4);
+}
+
+TEST_F(Program, AResultIsNotReplacedUnasked) {
+  ASSERT_EQ(run({"run", "tiny.toml", "--out", "r", "--quiet"}), 0);
+  const std::string before = text_of(path("r/run.vtkhdf")) + text_of(path("r/summary.json"));
+  EXPECT_EQ(run({"run", "tiny.toml", "--out", "r", "--set", "time.end_s=0.0005"}), 4);
+  EXPECT_TRUE(has(err(), "--overwrite")) << err();
+  EXPECT_TRUE(before == text_of(path("r/run.vtkhdf")) + text_of(path("r/summary.json"))) << "left untouched";
+  EXPECT_EQ(run({"run", "tiny.toml", "--out", "r", "--set", "time.end_s=0.0005", "--overwrite", "--quiet"}),
+            0);
+  EXPECT_EQ(summary("r").at("steps"), 500);
+}
+
+TEST_F(Program, InfoAndReportOfNoResult) {
+  EXPECT_EQ(run({"info", "nowhere"}), 4);
+  write("run.vtkhdf", "this is no HDF5 file");
+  EXPECT_EQ(run({"info", "run.vtkhdf"}), 4);
+  EXPECT_EQ(run({"report", "nowhere"}), 4);
+}
+
+// ----------------------------------------------------------------------------------------------------
+// Runs that do not end as planned: what was computed is kept
+
+TEST_F(Program, ANumericalFailureKeepsItsFrames) {
+  EXPECT_EQ(run({"run", "tiny.toml", "--set", "time.step_s=1.25e-5", "--set", "time.allow_unstable=true",
+                 "--set", "time.end_s=1", "--out", "r"}),
+            3);
+  EXPECT_TRUE(has(err(), "error") && has(err(), "at t = ")) << err();
+  const Json s = summary("r");
+  EXPECT_EQ(s.at("status"), "failed");
+  EXPECT_TRUE(has(s.at("message"), "likely cause")) << s.at("message");
+  const cinch::Result result(path("r"));
+  ASSERT_GE(result.frames(), 1);
+  EXPECT_EQ(result.frame(0).step, 0);
+  const cinch::Frame last = result.frame(result.frames() - 1);
+  for (const cinch::Vec3& x : last.position) ASSERT_TRUE(x.allFinite()) << "kept frames are sound";
+  EXPECT_EQ(run({"info", "r"}), 0);
+}
+
+class Stopped : public Program, public testing::WithParamInterface<int> {};
+
+TEST_P(Stopped, KeepsItsFrames) {
+  const int signal = GetParam();
+  const pid_t child = start(endless);
+  // stop it when it has begun to write frames
+  for (int k = 0; k < 200 && !fs::exists(path("r/run.vtkhdf")); ++k)
+    std::this_thread::sleep_for(std::chrono::milliseconds(50));
+  std::this_thread::sleep_for(std::chrono::milliseconds(700));
+  kill(child, signal);
+  EXPECT_EQ(wait_for(child), signal == SIGINT ? 130 : 143);
+  const Json s = summary("r");
+  EXPECT_EQ(s.at("status"), signal == SIGINT ? "interrupted" : "terminated");
+  EXPECT_LT(s.at("simulated_seconds"), 100);
+  EXPECT_GT(s.at("simulated_seconds"), 0);
+  const cinch::Result result(path("r"));
+  ASSERT_GE(result.frames(), 2);
+  EXPECT_EQ(result.frame(result.frames() - 1).step, s.at("steps")) << "the last frame is where it stopped";
+  EXPECT_EQ(run({"info", "r"}), 0);
+}
+
+INSTANTIATE_TEST_SUITE_P(Signals, Stopped, testing::Values(SIGINT, SIGTERM),
+                         [](const auto& signal) { return signal.param == SIGINT ? "SIGINT" : "SIGTERM"; });
+
+TEST_F(Program, AKilledRunKeepsItsFrames) {
+  const pid_t child = start(endless);
+  for (int k = 0; k < 200 && !fs::exists(path("r/run.vtkhdf")); ++k)
+    std::this_thread::sleep_for(std::chrono::milliseconds(50));
+  std::this_thread::sleep_for(std::chrono::milliseconds(700));
+  kill(child, SIGKILL);
+  EXPECT_EQ(wait_for(child), 1000 + SIGKILL);
+  EXPECT_FALSE(fs::exists(path("r/summary.json")));
+  const cinch::Result result(path("r"));
+  EXPECT_GE(result.frames(), 2);
+  EXPECT_EQ(run({"info", "r"}), 0);
+}
+
+}  // namespace

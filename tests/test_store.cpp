@@ -1,0 +1,491 @@
+// The store: elements cut into runs and blocks, forces gathered to nodes, masses lumped at nodes; and what is
+// measured on the net's shape, the mouth.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <numeric>
+#include <random>
+#include <string>
+#include <vector>
+
+#include "input/case_reader.hpp"
+#include "scene/mouth.hpp"
+#include "scene/net_pattern.hpp"
+#include "store/force_reduction.hpp"
+#include "store/model.hpp"
+#include "store/topology.hpp"
+
+namespace {
+
+using namespace cinch;
+using Graph = std::vector<std::array<Index, 2>>;
+
+constexpr std::size_t at(Index i) { return static_cast<std::size_t>(i); }
+
+Scene read(const std::string& name, const std::vector<Override>& sets = {}) {
+  return read_case(std::string(CINCH_SOURCE_DIR) + "/cases/" + name + ".toml", sets);
+}
+
+// ----------------------------------------------------------------------------------------------------
+// Graphs
+
+struct Sample {
+  std::string name;
+  Graph elements;
+  Index nodes;
+};
+
+Net net_of(int columns, int rows, int sub) {
+  Net net;
+  net.mesh = 0.1;
+  net.width = 0.1 * columns;
+  net.height = 0.1 * rows;
+  net.elements_per_side = sub;
+  return net;
+}
+
+Sample net_sample(int columns, int rows, int sub) {
+  const NetPattern pattern(net_of(columns, rows, sub));
+  return {"net " + std::to_string(columns) + "x" + std::to_string(rows) + "x" + std::to_string(sub),
+          pattern.elements(), pattern.nodes()};
+}
+
+Sample thread_sample(Index elements) {
+  Sample s{"thread " + std::to_string(elements), {}, elements + 1};
+  for (Index e = 0; e < elements; ++e) s.elements.push_back({e, e + 1});
+  return s;
+}
+
+Sample shuffled(Sample s, unsigned seed) {
+  std::mt19937 random(seed);
+  std::shuffle(s.elements.begin(), s.elements.end(), random);
+  for (auto& e : s.elements)
+    if (random() % 2 == 0) std::swap(e[0], e[1]);
+  s.name += " shuffled";
+  return s;
+}
+
+Sample random_graph(Index nodes, Index elements, unsigned seed) {
+  std::mt19937 random(seed);
+  std::uniform_int_distribution<Index> node(0, nodes - 1);
+  Sample s{"random " + std::to_string(seed), {}, nodes};
+  while (static_cast<Index>(s.elements.size()) < elements) {
+    const Index a = node(random), b = node(random);
+    if (a != b) s.elements.push_back({a, b});  // pairs may repeat
+  }
+  return s;
+}
+
+std::vector<Sample> samples() {
+  std::vector<Sample> list;
+  for (int sub = 1; sub <= 3; ++sub)
+    for (const auto& [columns, rows] : {std::pair{1, 1}, {4, 3}, {10, 10}, {37, 12}}) {
+      list.push_back(net_sample(columns, rows, sub));
+      list.push_back(shuffled(list.back(), 7));
+    }
+  for (const Index n : {1, 2, 255, 256, 257, 1000}) {
+    list.push_back(thread_sample(n));
+    list.push_back(shuffled(list.back(), 3));
+  }
+  for (unsigned seed = 1; seed < 9; ++seed)
+    list.push_back(random_graph(50 * static_cast<Index>(seed), 200 * static_cast<Index>(seed), seed));
+  list.push_back({"empty", {}, 5});
+  return list;
+}
+
+// ----------------------------------------------------------------------------------------------------
+// Runs and blocks
+
+TEST(Runs, CoverEveryElementOnceWithItsEnds) {
+  for (const Sample& s : samples()) {
+    SCOPED_TRACE(s.name);
+    const Topology topology = cut_runs(s.elements, s.nodes);
+    std::vector<Index> sorted = topology.user_element, all(s.elements.size());
+    std::sort(sorted.begin(), sorted.end());
+    std::iota(all.begin(), all.end(), 0);
+    ASSERT_EQ(sorted, all) << "a permutation of the user's numbers";
+    Index next = 0;
+    for (const kernel::Span& run : topology.runs) {
+      ASSERT_EQ(run.element, next);
+      ASSERT_GT(run.count, 0);
+      for (Index k = 0; k < run.count; ++k) {
+        const std::array<Index, 2> ends{run.a + k, run.b + k};
+        ASSERT_EQ(s.elements[at(topology.user_element[at(run.element + k)])], ends);
+      }
+      next += run.count;
+    }
+    EXPECT_EQ(next, static_cast<Index>(s.elements.size()));
+  }
+}
+
+TEST(Runs, FollowThreadsAndRowsOfNets) {
+  EXPECT_EQ(cut_runs(thread_sample(1000).elements, 1001).runs.size(), 1u);
+  const Sample two{"two threads", {{0, 1}, {1, 2}, {3, 4}, {4, 5}}, 6};
+  EXPECT_EQ(cut_runs(two.elements, two.nodes).runs.size(), 2u);
+  // a row of mesh sides, and the verticals above a row of knots, are one run for each of their sub-elements
+  // at most
+  for (int sub = 1; sub <= 3; ++sub) {
+    const Sample net = net_sample(40, 20, sub);
+    EXPECT_LE(cut_runs(net.elements, net.nodes).runs.size(), at(sub * (21 + 20)));
+  }
+}
+
+TEST(Blocks, HoldTheRunsInOrder) {
+  for (const Sample& s : samples()) {
+    SCOPED_TRACE(s.name);
+    const Topology topology = cut_runs(s.elements, s.nodes);
+    std::vector<kernel::Span> spans;
+    std::vector<kernel::ElementBlock> blocks;
+    cut_element_blocks(topology.runs, spans, blocks);
+    Index next_span = 0, next_element = 0;
+    for (std::size_t b = 0; b < blocks.size(); ++b) {
+      ASSERT_EQ(blocks[b].span_begin, next_span);
+      Index in_block = 0;
+      for (Index i = blocks[b].span_begin; i < blocks[b].span_end; ++i) {
+        const kernel::Span& span = spans[at(i)];
+        ASSERT_EQ(span.element, next_element);
+        for (Index k = 0; k < span.count; ++k) {
+          const auto& ends = s.elements[at(topology.user_element[at(span.element + k)])];
+          ASSERT_EQ(span.a + k, ends[0]);
+          ASSERT_EQ(span.b + k, ends[1]);
+        }
+        next_element += span.count;
+        in_block += span.count;
+      }
+      next_span = blocks[b].span_end;
+      if (b + 1 < blocks.size()) {
+        EXPECT_EQ(in_block, kernel::block_size);
+      } else {
+        EXPECT_LE(in_block, kernel::block_size);
+      }
+    }
+    EXPECT_EQ(next_span, static_cast<Index>(spans.size()));
+    EXPECT_EQ(next_element, static_cast<Index>(s.elements.size()));
+  }
+}
+
+// ----------------------------------------------------------------------------------------------------
+// The force reduction
+
+// Whole numbers, so that sums are exact in any order.
+std::vector<double> random_forces(std::size_t count, unsigned seed) {
+  std::mt19937 random(seed);
+  std::uniform_int_distribution<int> force(-1000, 1000);
+  std::vector<double> list(count);
+  for (double& f : list) f = force(random);
+  return list;
+}
+
+TEST(ForceReduction, GatherEqualsScatter) {
+  for (const Sample& s : samples()) {
+    SCOPED_TRACE(s.name);
+    const Topology topology = cut_runs(s.elements, s.nodes);
+    std::vector<kernel::NodeBlock> blocks;
+    std::vector<kernel::GatherPiece> pieces;
+    std::vector<kernel::Constraint> constraints;
+    for (Index node = 0; node < s.nodes; node += 3) constraints.push_back({node, 1, 0, 0});
+    cut_node_blocks(s.nodes, topology.runs, constraints, blocks, pieces);
+    const std::vector<double> force = random_forces(s.elements.size(), 11);
+
+    std::vector<double> scattered(at(s.nodes)), gathered(at(s.nodes));
+    for (std::size_t e = 0; e < s.elements.size(); ++e) {
+      scattered[at(s.elements[at(topology.user_element[e])][0])] += force[e];
+      scattered[at(s.elements[at(topology.user_element[e])][1])] -= force[e];
+    }
+    Index next_node = 0, next_constraint = 0, next_piece = 0;
+    for (const kernel::NodeBlock& block : blocks) {
+      ASSERT_EQ(block.first, next_node);
+      ASSERT_EQ(block.piece_begin, next_piece);
+      ASSERT_EQ(block.constraint_begin, next_constraint);
+      for (Index p = block.piece_begin; p < block.piece_end; ++p) {
+        const kernel::GatherPiece& piece = pieces[at(p)];
+        ASSERT_GE(piece.node, block.first);
+        ASSERT_LE(piece.node + piece.count, block.first + block.count) << "a piece writes its own block only";
+        for (Index k = 0; k < piece.count; ++k)
+          gathered[at(piece.node + k)] += piece.sign * force[at(piece.element + k)];
+      }
+      for (Index c = block.constraint_begin; c < block.constraint_end; ++c) {
+        ASSERT_GE(constraints[at(c)].node, block.first);
+        ASSERT_LT(constraints[at(c)].node, block.first + block.count);
+      }
+      next_node += block.count;
+      next_piece = block.piece_end;
+      next_constraint = block.constraint_end;
+    }
+    EXPECT_EQ(next_node, s.nodes);
+    EXPECT_EQ(next_piece, static_cast<Index>(pieces.size()));
+    EXPECT_EQ(next_constraint, static_cast<Index>(constraints.size()));
+    EXPECT_EQ(gathered, scattered);
+  }
+}
+
+TEST(ForceReduction, ContactLoadsReachTheirNodesInOrder) {
+  std::mt19937 random(5);
+  for (const Index nodes : {1, 256, 257, 2000}) {
+    SCOPED_TRACE(nodes);
+    const Index blocks = (nodes + kernel::block_size - 1) / kernel::block_size;
+    std::uniform_int_distribution<Index> any(0, nodes - 1);
+    std::vector<Index> node_of_slot(500);
+    for (Index& node : node_of_slot) node = any(random);
+    const std::vector<double> load = random_forces(node_of_slot.size(), 23);
+    LoadGather gather;
+    gather.rebuild({}, blocks);
+    EXPECT_TRUE(gather.entries.empty());
+    EXPECT_EQ(gather.begin, std::vector<Index>(at(blocks) + 1, 0));
+    gather.rebuild(node_of_slot, blocks);
+
+    ASSERT_EQ(gather.entries.size(), node_of_slot.size());
+    ASSERT_EQ(gather.begin.size(), at(blocks) + 1);
+    EXPECT_EQ(gather.begin.front(), 0);
+    EXPECT_EQ(gather.begin.back(), static_cast<Index>(node_of_slot.size()));
+    std::vector<double> scattered(at(nodes)), gathered(at(nodes));
+    for (std::size_t slot = 0; slot < load.size(); ++slot) scattered[at(node_of_slot[slot])] += load[slot];
+    for (Index b = 0; b < blocks; ++b)
+      for (Index i = gather.begin[at(b)]; i < gather.begin[at(b) + 1]; ++i) {
+        const kernel::LoadEntry& entry = gather.entries[at(i)];
+        ASSERT_EQ(entry.node / kernel::block_size, b);
+        ASSERT_EQ(entry.node, node_of_slot[at(entry.slot)]);
+        gathered[at(entry.node)] += load[at(entry.slot)];
+        if (i > gather.begin[at(b)]) {
+          const kernel::LoadEntry& last = gather.entries[at(i) - 1];
+          ASSERT_TRUE(last.node < entry.node || (last.node == entry.node && last.slot < entry.slot));
+        }
+      }
+    EXPECT_EQ(gathered, scattered);
+  }
+}
+
+// ----------------------------------------------------------------------------------------------------
+// Masses
+
+// Capture, by hand. Elements of the net and towing threads: 970 kg/m^3 pi/4 (2 mm)^2 0.1 m = 3.047344874e-4
+// kg, of the closing threads (5 mm): 1.523672437e-5 kg. A ring gives 0.003 kg to each end of its host, eq.
+// (2).
+constexpr double net_element = 3.047344874e-4, closing_element = 1.523672437e-5;
+
+TEST(Masses, OfCaptureByEquation2) {
+  const Assembly a = assemble(read("capture"));
+  const Part& net = a.parts.front();
+  const auto mass = [&](const char* place) { return a.nodes[at(a.node_in_net(net, place))].mass; };
+  constexpr double tolerance = 1e-12;
+  // four sides meet inside; on an edge three; in a corner two and the towing thread
+  EXPECT_NEAR(mass("knot.5.5"), 2 * net_element, tolerance);
+  // edge: cells 1, 4, 7, 10 carry rings: knots 2 and 5 have none or one beside them
+  EXPECT_NEAR(mass("knot.2.10"), 1.5 * net_element, tolerance);
+  EXPECT_NEAR(mass("knot.3.10"), 1.5 * net_element + 0.003, tolerance);
+  EXPECT_NEAR(mass("knot.1.10"), 1.5 * net_element + 0.003, tolerance);
+  EXPECT_NEAR(mass("knot.0.5"), 1.5 * net_element, tolerance);
+  // a corner lies between the last ring of one edge and the first of the next
+  EXPECT_NEAR(mass("top_left"), 1.5 * net_element + 2 * 0.003, tolerance);
+  EXPECT_NEAR(mass("bottom_right"), 1.5 * net_element + 2 * 0.003, tolerance);
+  // launcher: 0.05 kg and half the towing thread; split masses: 0.1 kg and half a closing element
+  EXPECT_NEAR(a.nodes[at(a.node_of("mechanism.m3.launcher"))].mass, 0.05 + net_element / 2, tolerance);
+  EXPECT_NEAR(a.nodes[at(a.node_of("mechanism.m3.a"))].mass, 0.1 + closing_element / 2, tolerance);
+  EXPECT_NEAR(a.nodes[at(a.node_of("mechanism.m3.b"))].mass, 0.1 + closing_element / 2, tolerance);
+  EXPECT_NEAR(a.nodes[at(a.node_of("thread.c_top.node.100"))].mass, closing_element, tolerance);
+}
+
+TEST(Masses, BeforeTheClosingTimeByHand) {
+  const Assembly a = assemble(read("capture"));
+  const Part& net = a.parts.front();
+  const auto before = [&](const std::string& place) {
+    return a.nodes[at(a.node_in_net(net, place))].mass_before;
+  };
+  // along an edge each side of 0.1 m carries 20 closing elements, shared like the side's own mass
+  const double on_side = 20 * closing_element;
+  EXPECT_NEAR(before("knot.5.5"), 2 * net_element, 1e-12);
+  EXPECT_NEAR(before("knot.2.10"), 1.5 * net_element + on_side, 1e-12);
+  // a corner and a launcher belong to two closing threads
+  EXPECT_NEAR(before("top_left"), 1.5 * net_element + 0.006 + 2 * on_side, 1e-12);
+  EXPECT_NEAR(a.nodes[at(a.node_of("mechanism.m1.launcher"))].mass_before, 0.25 + net_element / 2 + on_side,
+              1e-12);
+  EXPECT_EQ(a.nodes[at(a.node_of("mechanism.m1.a"))].mass_before, 0);
+}
+
+TEST(Masses, OfAThreadAndARing) {
+  const Assembly a = assemble(read("ring_pull"));
+  // 970 kg/m^3 pi/4 (2 mm)^2 5 mm
+  EXPECT_NEAR(a.nodes.front().mass, 0.1 + closing_element / 2, 1e-14);
+  EXPECT_NEAR(a.nodes[1].mass, closing_element, 1e-14);
+  EXPECT_NEAR(a.nodes[200].mass, closing_element / 2, 1e-14);
+  EXPECT_EQ(a.nodes[201].mass, 0.1);
+}
+
+TEST(Masses, TotalsAgreeBeforeAndAfter) {
+  const struct {
+    const char* name;
+    double total;  // kg: threads, net, rings, masses
+  } cases[] = {
+      {"capture", 220 * net_element + 4 * net_element + 960 * closing_element + 16 * 0.006 + 4 * 0.25},
+      {"edge_closure", (220 * net_element + 240 * closing_element) * 650 / 970 + 4 * 0.001 + 0.2},
+      {"ring_pull", 200 * closing_element + 0.1 + 0.1}};
+  for (const auto& item : cases) {
+    SCOPED_TRACE(item.name);
+    const Scene scene = read(item.name);
+    const Assembly a = assemble(scene);
+    double before = 0, after = 0;
+    for (const AssemblyNode& node : a.nodes) before += node.mass_before, after += node.mass;
+    EXPECT_NEAR(after, item.total, 1e-10);
+    EXPECT_NEAR(before, after, 1e-14 * static_cast<double>(a.nodes.size()));
+    const Model model_before = build_model(a, scene, Stage::before_closing),
+                model = build_model(a, scene, Stage::closing);
+    EXPECT_NEAR(std::accumulate(model_before.mass.begin(), model_before.mass.end(), 0.0), item.total, 1e-10);
+    EXPECT_NEAR(std::accumulate(model.mass.begin(), model.mass.end(), 0.0), item.total, 1e-10);
+  }
+}
+
+// ----------------------------------------------------------------------------------------------------
+// Models
+
+TEST(Models, CountNodesAndElements) {
+  const struct {
+    const char* name;
+    Index nodes, elements, nodes_before, elements_before;
+    std::size_t rings;
+  } cases[] = {
+      {"ring_pull", 202, 200, 202, 200, 1},
+      {"edge_closure", 121 + 241, 220 + 240, 121, 220, 4},
+      // 11 x 11 knots and 4 launchers; 8 split masses and 4 x 239 thread nodes
+      {"capture", 125 + 8 + 4 * 239, 224 + 4 * 240, 125, 224, 16},
+      // 201 x 201 knots and 4 x 20 towing nodes; 8 split masses and 4 x 4799 thread nodes
+      {"large_capture", 201 * 201 + 80 + 8 + 4 * 4799, 2 * 200 * 201 + 80 + 4 * 4800, 201 * 201 + 80,
+       2 * 200 * 201 + 80, 800},
+  };
+  for (const auto& item : cases) {
+    SCOPED_TRACE(item.name);
+    const Scene scene = read(item.name);
+    const Assembly a = assemble(scene);
+    const Model before = build_model(a, scene, Stage::before_closing),
+                after = build_model(a, scene, Stage::closing);
+    EXPECT_EQ(after.nodes, item.nodes);
+    EXPECT_EQ(after.elements, item.elements);
+    EXPECT_EQ(after.rings.size(), item.rings);
+    EXPECT_EQ(before.nodes, item.nodes_before);
+    EXPECT_EQ(before.elements, item.elements_before);
+    EXPECT_EQ(before.rings.size(), a.has_closing() ? 0u : item.rings);
+  }
+}
+
+TEST(Models, KeepEveryElementsNumbers) {
+  const Scene scene = read("capture");
+  const Assembly a = assemble(scene);
+  const Model m = build_model(a, scene, Stage::closing);
+  for (std::size_t e = 0; e < at(m.elements); ++e) {
+    const AssemblyElement& user = a.elements[at(m.user_element[e])];
+    ASSERT_EQ(m.end_a[e], user.a);
+    ASSERT_EQ(m.end_b[e], user.b);
+    ASSERT_EQ(m.stiffness[e], user.stiffness);
+    ASSERT_EQ(m.damping[e], user.damping);
+    ASSERT_EQ(m.rest_length[e], user.rest_length);
+    ASSERT_EQ(m.radius[e], user.radius);
+    ASSERT_EQ(m.compliance[e], user.compliance);
+  }
+  // 87 GPa pi/4 (2 mm)^2 / 0.1 m; c = 2 0.106 sqrt(k m)
+  EXPECT_NEAR(a.elements.front().stiffness, 2.733185609e6, 1e-3);
+  EXPECT_NEAR(a.elements.front().damping, 2 * 0.106 * std::sqrt(2.733185609e6 * net_element), 1e-7);
+}
+
+TEST(Models, ContactSetsLeaveOutRepeatedNodes) {
+  const Scene scene = read("capture");
+  const Assembly a = assemble(scene);
+  const Model m = build_model(a, scene, Stage::closing);
+  ASSERT_EQ(m.contact_sets.size(), 2u) << "all rings share one set, the ball has another";
+  const ContactSet& threads = m.contact_sets[at(m.ring_set.front())];
+  EXPECT_EQ(threads.elements.size(), 960u);
+  EXPECT_TRUE(std::is_sorted(threads.elements.begin(), threads.elements.end()));
+  for (std::size_t i = 0; i < threads.elements.size(); ++i) {
+    const Index e = threads.elements[i];
+    const auto of = [&](Index node) { return a.node_of("mechanism.m1.a") <= node && node < 133 ? 0.0 : 0.5; };
+    ASSERT_EQ(threads.weight_a[i], of(m.end_a[at(e)]))
+        << "a split mass ends one thread, inside two elements meet";
+    ASSERT_EQ(threads.weight_b[i], of(m.end_b[at(e)]));
+  }
+  const Model as_paper = build_model(a, read("capture", {{"contact.shared_node", "paper"}}), Stage::closing);
+  for (const double weight : as_paper.contact_sets.front().weight_a) ASSERT_EQ(weight, 0);
+}
+
+// ----------------------------------------------------------------------------------------------------
+// The mouth
+
+// A point of the plane through (1, 2, 3) spanned by two tilted unit vectors.
+Vec3 tilted(double u, double v) {
+  const Vec3 e1 = Vec3(1, 2, 2) / 3, e2 = Vec3(2, 1, -2) / 3;
+  return Vec3(1, 2, 3) + u * e1 + v * e2;
+}
+
+TEST(Mouth, AreaOfKnownShapes) {
+  EXPECT_EQ(mouth_area({}), 0);
+  EXPECT_EQ(mouth_area({tilted(0, 0), tilted(1, 0)}), 0);
+  EXPECT_NEAR(mouth_area({tilted(0, 0), tilted(3, 0), tilted(0, 4)}), 6, 1e-12);
+  EXPECT_NEAR(mouth_area({tilted(0, 0), tilted(2, 0), tilted(2, 3), tilted(0, 3)}), 6, 1e-12);
+  // points inside and on the sides do not count, nor does the order
+  EXPECT_NEAR(
+      mouth_area({tilted(2, 3), tilted(1, 1), tilted(0, 0), tilted(1, 0), tilted(0, 3), tilted(2, 0)}), 6,
+      1e-12);
+  EXPECT_NEAR(mouth_area({tilted(0, 0), tilted(1, 1), tilted(2, 2), tilted(3, 3)}), 0, 1e-12);
+  std::vector<Vec3> ring;
+  for (int k = 0; k < 16; ++k)
+    ring.push_back(tilted(std::cos(k * std::numbers::pi / 8), std::sin(k * std::numbers::pi / 8)));
+  EXPECT_NEAR(mouth_area(ring), 8 * std::sin(std::numbers::pi / 8), 1e-12);
+}
+
+TEST(Mouth, AreaIsTakenOnTheBestPlane) {
+  // corners lifted by turns off the plane of a square of side 2: the best plane is that of the square
+  EXPECT_NEAR(mouth_area({{-1, -1, 0.1}, {1, -1, -0.1}, {1, 1, 0.1}, {-1, 1, -0.1}}), 4, 1e-12);
+}
+
+TEST(Mouth, SpreadIsTheGreatestDistance) {
+  EXPECT_EQ(mouth_spread({}), 0);
+  EXPECT_EQ(mouth_spread({tilted(1, 1)}), 0);
+  EXPECT_NEAR(mouth_spread({tilted(0, 0), tilted(1, 0), tilted(3, 4), tilted(1, 1)}), 5, 1e-12);
+}
+
+// A net of 12 x 12 meshes laid on the unit sphere about the origin, from the pole at +Z down to `opening`
+// radians from the other pole: 0 closes the bag.
+std::vector<Vec3> bag(const Net& net, double opening) {
+  std::vector<Vec3> list;
+  for (const auto& place : NetPattern(net).places()) {
+    const double half = net.width / 2, u = place[0] / half, v = place[1] / half;
+    const double out = std::max(std::abs(u), std::abs(v));  // 0 in the middle, 1 on the edge
+    const double polar = out * (std::numbers::pi - opening), turn = std::atan2(v, u);
+    list.emplace_back(std::sin(polar) * std::cos(turn), std::sin(polar) * std::sin(turn), std::cos(polar));
+  }
+  return list;
+}
+
+TEST(Mouth, ABagEnclosesWhatIsInside) {
+  const Net net = net_of(12, 12, 1);
+  const NetSurface surface(net, 0);
+  for (const double opening : {0.05, 0.5, 1.5}) {  // the lid lies at z = -cos(opening)
+    SCOPED_TRACE(opening);
+    const std::vector<Vec3> x = bag(net, opening);
+    EXPECT_TRUE(surface.encloses(x, {0, 0, 0.5}));
+    EXPECT_TRUE(surface.encloses(x, {0.3, -0.3, 0.2}));
+    EXPECT_TRUE(surface.encloses(x, {0, 0, -std::cos(opening) + 0.02}));
+    EXPECT_FALSE(surface.encloses(x, {0, 0, -std::cos(opening) - 0.02})) << "in front of the mouth";
+    EXPECT_FALSE(surface.encloses(x, {0, 0, 1.2}));
+    EXPECT_FALSE(surface.encloses(x, {1.1, 0, 0}));
+    EXPECT_FALSE(surface.encloses(x, {0, 3, -4}));
+  }
+}
+
+TEST(Mouth, AFlatNetEnclosesNothing) {
+  const Net net = net_of(12, 12, 2);
+  const NetSurface surface(net, 0);
+  std::vector<Vec3> x;
+  for (const auto& place : NetPattern(net).places()) x.emplace_back(place[0], place[1], 0);
+  for (const double z : {-1.0, -0.01, 0.01, 1.0}) EXPECT_FALSE(surface.encloses(x, {0.01, 0.02, z}));
+}
+
+TEST(Mouth, ANetThatIsNotTheFirstPartCountsFromItsFirstNode) {
+  const Net net = net_of(12, 12, 1);
+  std::vector<Vec3> x(50, Vec3(9, 9, 9));
+  for (const Vec3& point : bag(net, 0.5)) x.push_back(point);
+  EXPECT_TRUE(NetSurface(net, 50).encloses(x, {0, 0, 0}));
+  EXPECT_FALSE(NetSurface(net, 0).encloses(x, {0, 0, 0}));
+}
+
+}  // namespace
