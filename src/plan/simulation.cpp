@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <limits>
 
 #include "base/error.hpp"
 #include "base/version.hpp"
@@ -324,6 +325,7 @@ Summary Simulation::summary() {
   s.state_hash = state_hash(state_);
   s.energy = ledger_.energies(observe(*stepper_, state_));
   s.energy_initial = ledger_.initial();
+  if (!scene_.output.ledger) s.energy.residual = std::numeric_limits<double>::quiet_NaN();  // books not kept
   s.relative_residual = ledger_.scale() > 0 ? std::abs(s.energy.residual) / ledger_.scale() : 0;
   const Momentum drift = ledger_.drift(model(), state_, time());
   s.linear_momentum_drift = drift.linear.norm();

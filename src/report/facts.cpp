@@ -1,5 +1,6 @@
 #include "report/facts.hpp"
 
+#include <cmath>
 #include <cstdio>
 
 #include "report/html.hpp"
@@ -80,7 +81,9 @@ std::vector<Fact> facts_of(const Digest& d) {
   }
   const Summary& s = *d.summary;
   facts.push_back(number("energy residual", 100 * s.relative_residual, "%",
-                         "over the larger of initial energy and work put in"));
+                         std::isfinite(s.relative_residual)
+                             ? "over the larger of initial energy and work put in"
+                             : "the case keeps no ledger"));
   facts.push_back(number("momentum drift", s.linear_momentum_drift, "kg m/s", "linear"));
   if (s.angular_momentum_drift) facts.push_back(number("... angular", *s.angular_momentum_drift, "kg m²/s"));
   facts.push_back(number("largest penetration", s.max_penetration * 1e3, "mm"));
