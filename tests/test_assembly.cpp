@@ -49,8 +49,10 @@ TEST(Assembly, AnEdgeIsTheNetsOwnElementsEvenWhereAThreadRunsBesideIt) {
   EXPECT_GE(assembly.rings[0].element, net.first_element);
   EXPECT_LT(assembly.rings[0].element, net.first_element + net.elements);
   // 0.2 m of edge in four elements; inner nodes at quarters of it
-  for (const AssemblyElement& e : assembly.elements)
-    if (assembly.parts[static_cast<std::size_t>(e.part)].name == "c") EXPECT_DOUBLE_EQ(e.rest_length, 0.05);
+  for (const AssemblyElement& e : assembly.elements) {
+    if (assembly.parts[static_cast<std::size_t>(e.part)].name != "c") continue;
+    EXPECT_DOUBLE_EQ(e.rest_length, 0.05);
+  }
   EXPECT_DOUBLE_EQ(assembly.lays[1].s, 0.5);
   EXPECT_DOUBLE_EQ(assembly.lays[3].s, 0.5);
 }
