@@ -5,6 +5,7 @@
 #include <numbers>
 #include <sstream>
 
+#include "base/markup.hpp"
 #include "output/result_layout.hpp"
 #include "output/text_file.hpp"
 
@@ -26,29 +27,6 @@ string number(double value) {
   char text[32];
   std::snprintf(text, sizeof text, "%.17g", value);
   return text;
-}
-
-string escaped(const string& text) {
-  string out;
-  for (const char c : text) {
-    switch (c) {
-      case '&':
-        out += "&amp;";
-        break;
-      case '<':
-        out += "&lt;";
-        break;
-      case '>':
-        out += "&gt;";
-        break;
-      case '"':
-        out += "&quot;";
-        break;
-      default:
-        out += c;
-    }
-  }
-  return out;
 }
 
 // How an array lies in the HDF5 file: its number type and where it begins.
@@ -89,7 +67,7 @@ string grid_head(const string& name, double time) {
 }
 
 string series_head(const string& name) {
-  return "<Grid Name=\"" + escaped(name) + "\" GridType=\"Collection\" CollectionType=\"Temporal\">\n";
+  return "<Grid Name=\"" + escape_markup(name) + "\" GridType=\"Collection\" CollectionType=\"Temporal\">\n";
 }
 
 string points_topology(size_t count) {
@@ -141,7 +119,7 @@ void add_ball(Sphere& sphere, const ResultModel::Ball& ball) {
 
 string net_xdmf(const ResultModel& model, std::span<const double> times, const string& hdf5_name) {
   const size_t nodes = model.node_mass.size(), elements = model.elements.size(), frames = times.size();
-  const string file = escaped(hdf5_name), e = std::to_string(elements);
+  const string file = escape_markup(hdf5_name), e = std::to_string(elements);
   const string topology =
       "<Topology TopologyType=\"Polyline\" NodesPerElement=\"2\" NumberOfElements=\"" + e + "\">" +
       data_item(std::to_string(2 * elements), Kind::integer64, file + ":" + kConnectivity) + "</Topology>\n";
@@ -167,7 +145,7 @@ string net_xdmf(const ResultModel& model, std::span<const double> times, const s
 
 string rings_xdmf(const ResultModel& model, std::span<const double> times, const string& hdf5_name) {
   const size_t rings = model.rings.size(), frames = times.size();
-  const string file = escaped(hdf5_name), topology = points_topology(rings);
+  const string file = escape_markup(hdf5_name), topology = points_topology(rings);
   const string radius = attribute(
       "radius", false, false, data_item(std::to_string(rings), Kind::real, file + ":" + kRings + "/radius"));
   string text = kHead + series_head(model.case_name + " rings");

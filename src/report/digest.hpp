@@ -14,7 +14,7 @@ enum class PaperCase { ring_pull, edge_closure, capture, none };
 
 /// Series come from probes where the run has them, else from its frames.
 struct Digest {
-  ResultModel model;                         ///< its masses without those of rings, which are shown as rings
+  ResultModel model;  ///< its masses without those of rings, which are shown as rings
   std::optional<Summary> summary;
   std::string file;  ///< of the result
   PaperCase paper_case = PaperCase::none;

@@ -20,29 +20,6 @@ void replace_all(std::string& text, std::string_view from, std::string_view to) 
 
 }  // namespace
 
-std::string escape(std::string_view text) {
-  std::string out;
-  for (const char c : text) {
-    switch (c) {
-      case '&':
-        out += "&amp;";
-        break;
-      case '<':
-        out += "&lt;";
-        break;
-      case '>':
-        out += "&gt;";
-        break;
-      case '"':
-        out += "&quot;";
-        break;
-      default:
-        out += c;
-    }
-  }
-  return out;
-}
-
 std::string script_safe(std::string_view text) {
   std::string out(text);
   for (const std::string_view word : {"</script", "</SCRIPT", "</Script"})
@@ -76,7 +53,7 @@ std::string number(double value, int digits) {
 
 std::string quantity(double value, std::string_view unit, int digits) {
   std::string text = number(value, digits);
-  if (!unit.empty()) text += "\u202f" + escape(unit);
+  if (!unit.empty()) text += "\u202f" + escape_markup(unit);
   return text;
 }
 

@@ -5,10 +5,9 @@
 #include <string>
 #include <string_view>
 
-namespace cinch::html {
+#include "base/markup.hpp"
 
-/// For text and for attribute values in double quotes.
-std::string escape(std::string_view text);
+namespace cinch::html {
 
 /// JavaScript or JSON as it may stand inside <script>: no "</script", no "<!--".
 std::string script_safe(std::string_view text);

@@ -59,7 +59,8 @@ std::string least_mouth(const Digest& d) {
     when = d.mouth_area.t[i];
   }
   char text[100];
-  std::snprintf(text, sizeof text, "; least area %.1f %% of the greatest before, at %.3f s", 100 * share, when);
+  std::snprintf(text, sizeof text, "; least area %.1f %% of the greatest before, at %.3f s", 100 * share,
+                when);
   return when > 0 ? text : "";
 }
 

@@ -61,10 +61,10 @@ class Painter {
 
   std::string picture(const std::string& label, const std::string& id) {
     draw_chains();
-    std::string svg = "<svg class=\"net\" role=\"img\" aria-label=\"" + html::escape("net at " + label) +
+    std::string svg = "<svg class=\"net\" role=\"img\" aria-label=\"" + escape_markup("net at " + label) +
                       "\" viewBox=\"0 0 " + px(set_.width) + " " + px(set_.height) + "\">";
     svg += paths(true) + balls(id) + paths(false) + rings() + masses() + triad();
-    return svg + "<text class=\"time\" x=\"14\" y=\"26\">" + html::escape(label) + "</text></svg>\n";
+    return svg + "<text class=\"time\" x=\"14\" y=\"26\">" + escape_markup(label) + "</text></svg>\n";
   }
 
  private:
@@ -182,7 +182,7 @@ class Painter {
       const char* look = last == "launcher" ? "ml" : split ? "ms" : "mo";
       svg += std::string("<circle class=\"") + look + (hidden(seen) ? " far" : "") + "\" cx=\"" + px(p[0]) +
              "\" cy=\"" + px(p[1]) + "\" r=\"" + px(5.5 * std::clamp(seen.size, 0.7, 1.4)) + "\"><title>" +
-             html::escape(mass.name) + "</title></circle>";
+             escape_markup(mass.name) + "</title></circle>";
     }
     return svg;
   }

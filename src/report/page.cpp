@@ -11,7 +11,6 @@
 namespace cinch::page {
 namespace {
 
-using html::escape;
 using std::string;
 
 string tag(const string& name, const string& inside, const string& look = "") {
@@ -36,7 +35,7 @@ string badge(Verdict verdict) { return tag("span", words(verdict), string("badge
 
 string paper_value(const PaperNumber& p) {
   const string unit(p.unit);
-  if (!p.paper.empty()) return escape(p.paper);
+  if (!p.paper.empty()) return escape_markup(p.paper);
   const string tolerance = p.tolerance > 0 ? tag("span", " ± " + html::number(p.tolerance, 2), "soft") : "";
   return html::quantity(p.value, unit) + tolerance;
 }
@@ -60,19 +59,20 @@ string difference(const VerdictRow& row) {
 
 // Rows of the same number for further results leave out what the first of them says.
 string table_row(const VerdictRow& row, bool several, bool again) {
-  string cells = again ? "<td></td><td></td>"
-                       : tag("td", escape(row.paper->what)) + tag("td", escape(row.paper->source), "soft");
-  if (several) cells += tag("td", escape(row.result), "result");
+  string cells =
+      again ? "<td></td><td></td>"
+            : tag("td", escape_markup(row.paper->what)) + tag("td", escape_markup(row.paper->source), "soft");
+  if (several) cells += tag("td", escape_markup(row.result), "result");
   cells += tag("td", again ? "" : paper_value(*row.paper), row.paper->paper.empty() ? "n" : "words");
   cells += tag("td", row.here ? html::quantity(*row.here, row.paper->unit) : "–", "n");
   cells += tag("td", difference(row), "n") + tag("td", badge(row.verdict)) +
-           tag("td", again ? "" : escape(row.note), "note");
+           tag("td", again ? "" : escape_markup(row.note), "note");
   return tag("tr", cells, again ? "again" : "") + "\n";
 }
 
 string fact_cell(const Fact& fact) {
-  string inside = fact.text.empty() ? html::quantity(fact.value, fact.unit, 3) : escape(fact.text);
-  if (!fact.aside.empty()) inside += tag("span", escape(fact.aside), "aside");
+  string inside = fact.text.empty() ? html::quantity(fact.value, fact.unit, 3) : escape_markup(fact.text);
+  if (!fact.aside.empty()) inside += tag("span", escape_markup(fact.aside), "aside");
   return tag("td", inside);
 }
 
@@ -99,13 +99,14 @@ string sum_up(const std::vector<VerdictRow>& rows) {
 
 string lead(const std::vector<Digest>& results, const std::vector<VerdictRow>& rows) {
   const Digest& d = results.front();
-  string out = tag("h1", escape(d.model.title.empty() ? d.model.case_name : d.model.title));
-  if (!d.model.about.empty()) out += tag("p", escape(d.model.about), "about");
+  string out = tag("h1", escape_markup(d.model.title.empty() ? d.model.case_name : d.model.title));
+  if (!d.model.about.empty()) out += tag("p", escape_markup(d.model.about), "about");
   string status;
   for (const Digest& r : results)
     if (!r.summary || r.summary->status != "done")
       status +=
-          tag("p", (results.size() > 1 ? escape(r.label()) + ": " : "") + escape(status_of(r)), "alarm");
+          tag("p", (results.size() > 1 ? escape_markup(r.label()) + ": " : "") + escape_markup(status_of(r)),
+              "alarm");
   const string counts = rows.empty() ? "" : tag("p", "Paper against Cinch: " + sum_up(rows), "counts");
   return out + status + counts;
 }
@@ -115,9 +116,9 @@ string facts(const std::vector<Digest>& results) {
   for (const Digest& d : results) all.push_back(facts_of(d));
   string head = "<th></th>", rows;
   for (const Digest& d : results)
-    head += tag("th", escape(results.size() > 1 ? d.label() : d.model.case_name));
+    head += tag("th", escape_markup(results.size() > 1 ? d.label() : d.model.case_name));
   for (const string& name : fact_names(all)) {
-    string cells = tag("th", escape(name));
+    string cells = tag("th", escape_markup(name));
     for (const auto& list : all) {
       const auto found =
           std::find_if(list.begin(), list.end(), [&](const Fact& f) { return f.what == name; });
@@ -149,14 +150,15 @@ string plots(const std::vector<Plot>& list, std::size_t first) {
     const bool empty =
         std::all_of(plot.curves.begin(), plot.curves.end(), [](const Curve& c) { return c.points.empty(); });
     string inside =
-        tag("h3",
-            escape(plot.title) + (plot.source.empty() ? "" : tag("span", " " + escape(plot.source), "soft")));
+        tag("h3", escape_markup(plot.title) +
+                      (plot.source.empty() ? "" : tag("span", " " + escape_markup(plot.source), "soft")));
     if (empty) {
-      inside += tag("p", escape(plot.note.empty() ? "Nothing recorded for this plot." : plot.note), "gap");
+      inside +=
+          tag("p", escape_markup(plot.note.empty() ? "Nothing recorded for this plot." : plot.note), "gap");
     } else {
-      inside += "<div class=\"canvas\"><canvas role=\"img\" aria-label=\"" + escape(plot.title) +
+      inside += "<div class=\"canvas\"><canvas role=\"img\" aria-label=\"" + escape_markup(plot.title) +
                 "\" data-plot=\"" + std::to_string(first + i) + "\"></canvas></div>";
-      if (!plot.note.empty()) inside += tag("figcaption", escape(plot.note));
+      if (!plot.note.empty()) inside += tag("figcaption", escape_markup(plot.note));
     }
     out += tag("figure", inside, "plot") + "\n";
   }
@@ -170,12 +172,12 @@ string stages(const Summary& summary) {
   string rows;
   for (const auto& stage : summary.stages) {
     const double share = 100 * stage.seconds / total;
-    rows +=
-        tag("tr", tag("td", escape(stage.name)) + tag("td", html::quantity(stage.seconds, "s", 3), "n") +
-                      tag("td", html::number(share, 3) + "\u202f%", "n") +
-                      "<td class=\"bar\"><i style=\"width:" + std::to_string(static_cast<int>(share + 0.5)) +
-                      "%\"></i></td>") +
-        "\n";
+    rows += tag("tr",
+                tag("td", escape_markup(stage.name)) + tag("td", html::quantity(stage.seconds, "s", 3), "n") +
+                    tag("td", html::number(share, 3) + "\u202f%", "n") +
+                    "<td class=\"bar\"><i style=\"width:" + std::to_string(static_cast<int>(share + 0.5)) +
+                    "%\"></i></td>") +
+            "\n";
   }
   return tag(
       "table",
@@ -190,8 +192,8 @@ string events(const Summary& summary) {
   for (const Event& event : summary.events) {
     string kind = event.kind;
     std::replace(kind.begin(), kind.end(), '_', ' ');
-    rows += tag("tr", tag("td", html::quantity(event.time, "s", 5), "n") + tag("td", escape(kind)) +
-                          tag("td", escape(event.name))) +
+    rows += tag("tr", tag("td", html::quantity(event.time, "s", 5), "n") + tag("td", escape_markup(kind)) +
+                          tag("td", escape_markup(event.name))) +
             "\n";
   }
   return tag("table",
@@ -207,7 +209,7 @@ string rings(const Summary& summary) {
   string rows;
   for (const RingRecord& r : summary.ring_records) {
     const bool touched = r.first_contact_time >= 0;
-    rows += tag("tr", tag("td", escape(r.name)) + cell(r.first_contact_time, "s", touched) +
+    rows += tag("tr", tag("td", escape_markup(r.name)) + cell(r.first_contact_time, "s", touched) +
                           cell(r.first_contact_force, "N", touched) + cell(r.peak_time, "s", touched) +
                           cell(r.peak_force, "N", touched)) +
             "\n";
@@ -226,10 +228,11 @@ string reproduce(const std::vector<Digest>& results) {
     const string name = d.model.case_name.empty() ? "case" : d.model.case_name;
     const string commands = "cinch run " + name + ".toml --out results/" + name + " --threads " +
                             std::to_string(d.model.threads) + "\ncinch report results/" + name;
-    out += tag("p", "Save the resolved case below as " + tag("code", escape(name + ".toml")) + ", then:") +
-           tag("pre", escape(commands)) + "<details><summary>Resolved case" +
-           (results.size() > 1 ? " of " + escape(d.label()) : "") + "</summary>" +
-           tag("pre", escape(d.model.case_toml)) + "</details>\n";
+    out += tag("p",
+               "Save the resolved case below as " + tag("code", escape_markup(name + ".toml")) + ", then:") +
+           tag("pre", escape_markup(commands)) + "<details><summary>Resolved case" +
+           (results.size() > 1 ? " of " + escape_markup(d.label()) : "") + "</summary>" +
+           tag("pre", escape_markup(d.model.case_toml)) + "</details>\n";
   }
   return out;
 }
@@ -239,7 +242,7 @@ string whole(const string& title, const string& body, const string& plots_json, 
       "<!doctype html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
       "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n"
       "<link rel=\"icon\" href=\"data:,\">\n<title>" +
-      escape(title) + "</title>\n<style>\n";
+      escape_markup(title) + "</title>\n<style>\n";
   out += assets::page_css();
   out += "</style>\n</head>\n<body>\n<main>\n" + body + "</main>\n";
   out += "<script type=\"application/json\" id=\"plots\">" + html::script_safe(plots_json) + "</script>\n";

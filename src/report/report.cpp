@@ -119,7 +119,7 @@ string pictures(const PictureSet& set, const std::vector<Frame>& frames, const s
   return "<div class=\"pictures\">" + out + "</div>" + legend(*set.model, set.tension_reference);
 }
 
-string gap(const string& text) { return "<p class=\"gap\">" + html::escape(text) + "</p>\n"; }
+string gap(const string& text) { return "<p class=\"gap\">" + escape_markup(text) + "</p>\n"; }
 
 string picture_section(const Result& result, const Digest& d) {
   string missing;

@@ -10,10 +10,10 @@
 
 namespace cinch {
 
-/// Writes one self-contained HTML page about all `results` (first one first): verdict, paper against Cinch, plots,
-/// pictures, a turnable net. It loads nothing from a network or from beside it. Throws FileError when it cannot be
-/// written, Error (usage) when there is no result. `open_inputs`: the range of each number over the inputs that the
-/// paper leaves open (range_over); without it no number is "within the open inputs".
+/// Writes one self-contained HTML page about all `results` (first one first): verdict, paper against Cinch,
+/// plots, pictures, a turnable net. It loads nothing from a network or from beside it. Throws FileError when
+/// it cannot be written, Error (usage) when there is no result. `open_inputs`: the range of each number over
+/// the inputs that the paper leaves open (range_over); without it no number is "within the open inputs".
 void write_report(const std::vector<Result>& results, const std::filesystem::path& html_file,
                   const Sensitivity& open_inputs = {});
 
