@@ -1,26 +1,19 @@
-// Static equilibrium of lumped nodes and tension-only springs under gravity: the shape a hanging net starts
-// from.
+// Static equilibrium of a net under gravity, slack members included: the shape a hanging net starts from.
+//
+// The elastic energy k max(0, |d| - l0)^2 / 2 is a convex function of the element's vector d, gravity is
+// linear: the total energy is convex and every stationary point is a global minimum. What makes it hard is
+// stiffness (elements stretch by 1e-6 of their length where the shape moves by metres) and the jump of the
+// second derivative where a member goes slack. Two methods share the work:
+//  1. an interior-point method takes tension and slack as unknowns of their own. It sees neither difficulty,
+//     and no first guess, and ends within about 1e-7 of the weight;
+//  2. Newton's method in a trust region minimises the true energy from there to rounding.
 #pragma once
-#include <Eigen/SparseCore>
-#include <array>
 #include <vector>
 
 #include "base/vec3.hpp"
-#include "scene/scene.hpp"
+#include "statics/static_net.hpp"
 
 namespace cinch {
-
-/// What the static solver needs to know, in the caller's numbering of nodes and elements.
-struct StaticNet {
-  std::vector<Vec3> position;    ///< first guess, one for each node, m
-  std::vector<double> mass;      ///< one for each node, kg; zero is allowed
-  std::vector<Support> support;  ///< one for each node: free, guided (moves along its axis) or fixed
-  std::vector<Vec3> axis;        ///< one for each node, unit; read for guided nodes only
-  std::vector<std::array<Index, 2>> elements;  ///< the two nodes of each element
-  std::vector<double> stiffness;               ///< k = E A / l0 of each element, N/m, above zero
-  std::vector<double> rest_length;             ///< l0 of each element, m, above zero
-  Vec3 gravity = Vec3::Zero();                 ///< m/s^2
-};
 
 struct EquilibriumOptions {
   double tolerance = 1e-10;   ///< largest nodal residual over the weight of the movable nodes, -
@@ -34,18 +27,6 @@ struct EquilibriumResult {
   int slack_elements = 0;        ///< elements no longer than their rest length
   double energy = 0;             ///< elastic plus gravitational, J
 };
-
-/// Sum of k max(0, l - l0)^2 / 2 over the elements less the sum of m g.x over the nodes, J.
-/// `position` holds one point for each node of `net`, m.
-double static_energy(const StaticNet& net, const std::vector<Vec3>& position);
-
-/// Minus the gradient of `static_energy`, one vector for each node, N. Supports do not matter: at a fixed
-/// node it is the load that the support carries.
-std::vector<Vec3> static_force(const StaticNet& net, const std::vector<Vec3>& position);
-
-/// Second derivative of `static_energy`, (3 nodes) x (3 nodes), lower triangle only, N/m; entry 3 n + c
-/// belongs to coordinate c of node n. A slack element contributes explicit zeros.
-Eigen::SparseMatrix<double> static_hessian(const StaticNet& net, const std::vector<Vec3>& position);
 
 /// Minimum of `static_energy` over the movable degrees of freedom (free node 3, guided 1, fixed 0), from any
 /// first guess, all members slack included. The residual of a node is its force, for a guided node the part
