@@ -65,11 +65,12 @@ void print_expected_time(const Scene& scene, int threads) {
   const Preparation& p = trial.preparation();
   const auto measure = [&](Simulation& s) {
     const std::int64_t steps = std::min<std::int64_t>(2000, std::max<std::int64_t>(p.end_step - s.step(), 1));
-    s.advance_to(s.step() + std::min<std::int64_t>(100, steps));
+    s.advance_to(s.step() + std::min<std::int64_t>(10, steps));
     const double begin = now();
     const std::int64_t first = s.step();
-    s.advance_to(first + steps);
-    return (now() - begin) / static_cast<double>(steps);
+    while (s.step() < first + steps && now() - begin < 0.5)
+      s.advance_to(std::min(s.step() + 50, first + steps));
+    return (now() - begin) / static_cast<double>(s.step() - first);
   };
   const std::int64_t first_phase = p.phases.size() > 1 ? std::min(p.closing_step, p.end_step) : p.end_step;
   expected += measure(trial) * static_cast<double>(first_phase);

@@ -61,7 +61,8 @@ Commands define(CLI::App& app, Options& options) {
   c.report->add_option("RESULT", options.report.results, "folders or .vtkhdf files")
       ->required()
       ->expected(1, 1000);
-  c.report->add_option("--html", options.report.html, "page to write (default: report.html beside the result)");
+  c.report->add_option("--html", options.report.html,
+                       "page to write (default: report.html beside the result)");
   c.report->add_option("--table", options.report.table, "Markdown file for the table of the paper's numbers");
   c.report->add_option("--open", options.report.open, "runs with inputs changed that the paper leaves open")
       ->expected(1, 1000);

@@ -166,6 +166,7 @@ int run(const RunArguments& arguments) {
   Run one(scene, arguments.scene.threads, folder, arguments.quiet);
   const Summary summary = one.go();
   if (!summary.message.empty()) std::cerr << summary.message << "\n";
+  for (const std::string& warning : summary.warnings) std::cerr << "warning: " << warning << "\n";
   if (!arguments.quiet) print_verdict(Result(folder), std::cout);
   std::cout << "results: " << folder.string() << "\n";
   return exit_code(summary);

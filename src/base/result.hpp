@@ -101,10 +101,14 @@ struct StageTime {
   double seconds = 0;
 };
 
+/// A residual above this share of the largest input is a warning: the motion is not to be trusted.
+inline constexpr double residual_limit = 0.01;
+
 /// The verdict for machines: written as summary.json (field names as there).
 struct Summary {
   std::string status;   ///< "done", "failed", "interrupted", "terminated"
   std::string message;  ///< why it stopped, when it did not end as planned
+  std::vector<std::string> warnings;  ///< what makes the result doubtful
   std::string case_name, version, commit, compiler, isa, host;
   int threads = 1;
   std::int64_t steps = 0;

@@ -33,7 +33,7 @@ Vec3 outward_diagonal(const Net& net, const std::string& corner) {
 unsigned probe_forms(ProbeQuantity quantity) {
   switch (quantity) {
     case ProbeQuantity::tension:
-      return a_net | a_thread | a_mechanism | any_node;
+      return a_net | a_thread | a_mechanism | (any_node & ~static_cast<unsigned>(a_ring));
     case ProbeQuantity::mouth_area:
     case ProbeQuantity::mouth_spread:
     case ProbeQuantity::energy:

@@ -104,7 +104,8 @@ struct RingTally {
   double peak_force, peak_time;   ///< N, s
   double first_time, first_peak;  ///< s (-1: never touched), N (greatest before the first release)
   double max_penetration;         ///< m
-  double stiffest;  ///< greatest share of the stable step used by one contact, see stable_step.hpp
+  double stiffest;       ///< greatest share of the stable step used by its contacts, see contact_item.hpp
+  double stiffest_time;  ///< s
   Index stiffest_element;
   int state;  ///< 0 never touched, 1 in its first contact, 2 released
 };
@@ -136,7 +137,7 @@ struct BallTally {
   double impulse[3], moment[3];  ///< on the nodes, N s; about the origin, N m s
   double max_penetration;        ///< m
   double first_time;             ///< s, -1: never touched
-  double stiffest;
+  double stiffest, stiffest_time;
   Index stiffest_element;
 };
 

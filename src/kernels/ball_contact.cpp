@@ -57,9 +57,10 @@ inline EndLoads candidate_contact(const BallArguments& g, const Candidate& c, Ba
   if (c.weight_a != 0) add_contact(g, c, xa, 0, -c.weight_a, loads, tally);
   if (c.weight_b != 0) add_contact(g, c, xb, 1, -c.weight_b, loads, tally);
   if (tally.first_time < 0) tally.first_time = k.time;
-  const double share = step_share(k, c, t, 0, law);
+  const double share = thread_share(k, c, t, step_weight(k, law));
   if (share > tally.stiffest) {
     tally.stiffest = share;
+    tally.stiffest_time = k.time;
     tally.stiffest_element = c.element;
   }
   return loads;

@@ -14,13 +14,21 @@ struct EndLoads {
   V3 a{0, 0, 0}, b{0, 0, 0};
 };
 
-/// Share of the stable step that a contact uses: the largest eigenvalue of dt^2/4 K + dt/2 C over M for the
-/// contact as an element of its own, coupling the point at t to a host of compliance host_share, with the
-/// masses that the thread elements leave over (stable_step.hpp).
-inline double step_share(const kernel::ContactArguments& g, const kernel::Candidate& c, double t,
-                         double host_share, const ContactForce& law) {
-  const double kappa = 0.25 * g.step * g.step * law.stiffness + 0.5 * g.step * law.damping;
-  return kappa * ((1 - t) * (1 - t) * g.node_share[c.a] + t * t * g.node_share[c.b] + host_share);
+/// dt^2/4 dF/dd + dt/2 dF/d(dd/dt) of one contact, kg: what it adds to the matrix of stable_step.hpp.
+inline double step_weight(const kernel::ContactArguments& g, const ContactForce& law) {
+  return 0.25 * g.step * g.step * law.stiffness + 0.5 * g.step * law.damping;
+}
+
+/// Elements that meet at an end node and may touch the same thing at once; two where the rule does not tell.
+inline double multiplicity(double weight) { return weight > 0 ? 1 / (1 - weight) : 2.0; }
+
+/// Share of the stable step that contacts use on the thread's side: each end node may carry one contact for
+/// each of its elements, with the mass that the elements leave over (node_share). Never below the largest
+/// eigenvalue's share.
+inline double thread_share(const kernel::ContactArguments& g, const kernel::Candidate& c, double t,
+                           double kappa) {
+  return kappa * ((1 - t) * (1 - t) * multiplicity(c.weight_a) * g.node_share[c.a] +
+                  t * t * multiplicity(c.weight_b) * g.node_share[c.b]);
 }
 
 }  // namespace cinch::CINCH_ISA

@@ -3,6 +3,9 @@
 #include <cstdlib>
 #include <cstring>
 #include <initializer_list>
+#include <string>
+
+#include "base/error.hpp"
 
 namespace cinch {
 
@@ -44,7 +47,10 @@ KernelTable choose() {
     return make_table("v3", v3::fill_axial, v3::fill_ring_contact, v3::fill_ball_contact,
                       v3::fill_node_update);
 #endif
-  (void)allowed;
+  if (!allowed("base"))
+    throw CaseError(std::string("error: CINCH_ISA=") + wanted +
+                    ": allowed on this machine are base, v3, v4 as far as it "
+                    "has them");
   return make_table("base", base::fill_axial, base::fill_ring_contact, base::fill_ball_contact,
                     base::fill_node_update);
 }

@@ -27,7 +27,7 @@ struct RingMotion {
   V3 center, normal, velocity;
   V3 turn;  // dN/dt before projection: (v_b - v_a) / L; zero for a ring with a node of its own
   double inverse_length;
-  double host_share;  // see step_share
+  double host_share;  // sum of node_share over the host's nodes
 };
 
 inline RingMotion ring_motion(const RingArguments& g, const RingGeometry& ring) {
@@ -41,7 +41,7 @@ inline RingMotion ring_motion(const RingArguments& g, const RingGeometry& ring) 
   const double inverse =
       length > 0 ? 1 / length : 0.0;  // a host folded to a point keeps a zero normal: no contact
   return {0.5 * (xa + xb),     inverse * along, 0.5 * (va + vb),
-          inverse * (vb - va), inverse,         0.25 * (c.node_share[ring.a] + c.node_share[ring.b])};
+          inverse * (vb - va), inverse,         c.node_share[ring.a] + c.node_share[ring.b]};
 }
 
 // Sums over one ring's contacts in one step.
@@ -49,7 +49,18 @@ struct RingSum {
   V3 on_ring{0, 0, 0};  // force, N
   V3 couple{0, 0, 0};   // G, N m
   double potential = 0, power = 0, couple_power = 0;
+  double host_use = 0, thread_use = 0;  // shares of the stable step: summed on the host, greatest on a thread
+  Index stiffest = -1;                  // element with that greatest share
 };
+
+// The contact's share on the ring's side: half the force to each end, and the couple's +-lever / L where it
+// is kept.
+inline double host_use(const RingArguments& g, const RingMotion& ring, double kappa, double lever) {
+  if (ring.inverse_length == 0) return kappa * ring.host_share;
+  const double turn = g.couple ? lever * ring.inverse_length : 0.0;
+  const double most = 0.5 + std::fabs(turn);  // of |n / 2 +- turn e|
+  return kappa * most * most * ring.host_share;
+}
 
 // Adds `weight` times the contact of the point at t; returns the law's result for the watch.
 inline ContactForce add_contact(const RingArguments& g, const RingMotion& ring, const RingGeometry& shape,
@@ -100,10 +111,14 @@ inline EndLoads candidate_contact(const RingArguments& g, const RingMotion& ring
   take_off_node(g, ring, shape, c, xa, 0, c.weight_a, loads, sum);
   take_off_node(g, ring, shape, c, xb, 1, c.weight_b, loads, sum);
   tally.max_penetration = penetration > tally.max_penetration ? penetration : tally.max_penetration;
-  const double share = step_share(k, c, point.t, ring.host_share, law);
-  if (share > tally.stiffest) {
-    tally.stiffest = share;
-    tally.stiffest_element = c.element;
+  const double kappa = step_weight(k, law);
+  const double lever =
+      shape.radius * dot(point.p - point.q, ring.normal) / (point.distance > 0 ? point.distance : 1.0);
+  sum.host_use += host_use(g, ring, kappa, lever);
+  const double use = thread_share(k, c, point.t, kappa);
+  if (use >= sum.thread_use) {
+    sum.thread_use = use;
+    sum.stiffest = c.element;
   }
   return loads;
 }
@@ -158,6 +173,12 @@ inline void finish_ring(const RingArguments& g, const RingMotion& ring, Index r,
     tally.couple_impulse[2] += k.dt * torque.z;
   }
   note_force(tally, norm(sum.on_ring), k.time);
+  const double share = sum.host_use + sum.thread_use;
+  if (share > tally.stiffest) {
+    tally.stiffest = share;
+    tally.stiffest_time = k.time;
+    tally.stiffest_element = sum.stiffest;
+  }
 }
 
 void ring_contacts(const RingArguments& g, Index begin, Index end) {

@@ -1,6 +1,7 @@
 #include "output/info.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <ostream>
 
@@ -90,8 +91,10 @@ void print_verdict(const Summary& summary, std::ostream& out) {
        summary.stable_step_limited_by.c_str());
   line(out, "wall time", "%.3f s, %.4g min per simulated second", summary.wall_seconds,
        summary.minutes_per_simulated_second());
-  line(out, "energy", "initial %.6g J, residual %.3g J (%.2e of the largest input)", summary.energy_initial,
-       summary.energy.residual, summary.relative_residual);
+  if (std::isfinite(summary.relative_residual))
+    line(out, "energy", "initial %.6g J, residual %.3g J (%.2e of the largest input)", summary.energy_initial,
+         summary.energy.residual, summary.relative_residual);
+  else line(out, "energy", "initial %.6g J, no ledger kept", summary.energy_initial);
   line(out, "momentum", "linear drift %.3g kg m/s", summary.linear_momentum_drift);
   if (summary.angular_momentum_drift) {
     line(out, "", "angular drift %.3g kg m^2/s", *summary.angular_momentum_drift);

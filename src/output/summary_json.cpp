@@ -80,6 +80,7 @@ double time_or_never(const Json& object, const char* name) {
 void read_program(const Json& json, Summary& summary) {
   json.at("status").get_to(summary.status);
   json.at("message").get_to(summary.message);
+  if (json.contains("warnings")) json.at("warnings").get_to(summary.warnings);  // results before it was written
   json.at("case").get_to(summary.case_name);
   json.at("version").get_to(summary.version);
   json.at("commit").get_to(summary.commit);
@@ -134,6 +135,7 @@ void read_lists(const Json& json, Summary& summary) {
 std::string summary_to_json(const Summary& summary) {
   Json json{{"status", summary.status},
             {"message", summary.message},
+            {"warnings", summary.warnings},
             {"case", summary.case_name},
             {"version", summary.version},
             {"commit", summary.commit},

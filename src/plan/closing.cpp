@@ -30,13 +30,22 @@ State lay_closing_threads(const Model& after, const Assembly& assembly, const St
     state.y[at(lay.node)] += lay.offset.y();
     state.z[at(lay.node)] += lay.offset.z();
   }
-  state.balls = before.balls;  // what targets have felt so far goes on
+  state.balls = before.balls;  // what targets and rings have felt so far goes on
+  if (!before.rings.empty()) state.rings = before.rings;
   return state;
 }
 
 void separate(const Assembly& assembly, State& state) {
   for (const Lay& lay : assembly.lays) add_velocity(state, lay.node, lay.jump);
   for (const Recoil& recoil : assembly.recoils) add_velocity(state, recoil.node, recoil.jump);
+}
+
+void hold_supports(const Model& model, State& state) {
+  for (const kernel::Constraint& c : model.constraints) {
+    const Vec3 axis(c.ax, c.ay, c.az);
+    const Vec3 v(state.vx[at(c.node)], state.vy[at(c.node)], state.vz[at(c.node)]);
+    add_velocity(state, c.node, axis.dot(v) * axis - v);
+  }
 }
 
 void append_laid_nodes(const Assembly& assembly, std::vector<Vec3>& position, std::vector<Vec3>& velocity) {

@@ -14,6 +14,10 @@ State lay_closing_threads(const Model& after, const Assembly& assembly, const St
 /// Adds the separation velocities of split masses (and recoils of launchers whose masses do not balance).
 void separate(const Assembly& assembly, State& state);
 
+/// Takes from fixed and guided nodes the velocity that their support does not allow: a closing thread's end
+/// that is fixed from the closing time on stops there.
+void hold_supports(const Model& model, State& state);
+
 /// Places of the closing nodes for pictures before the closing time: positions and velocities are appended.
 void append_laid_nodes(const Assembly& assembly, std::vector<Vec3>& position, std::vector<Vec3>& velocity);
 

@@ -90,10 +90,8 @@ void ContactList::find_ball_candidates(const Model& model, const State& state) {
   ball_begin.assign(1, static_cast<Index>(candidates.size()));
   for (const Model::Ball& ball : model.balls) {
     const ContactSet& set = model.contact_sets[at(ball.set)];
-    double thickest = 0;
-    for (const Index e : set.elements) thickest = std::max(thickest, model.radius[at(e)]);
     found_.clear();
-    trees_[at(ball.set)].query(model, set, state, ball.center, ball.radius + thickest + margin_, found_,
+    trees_[at(ball.set)].query(model, set, state, ball.center, ball.radius + set.thickest + margin_, found_,
                                pairs_tested_);
     for (const Index position : found_)
       candidates.push_back(candidate(model, set, position, ball.radius, ball.radius, ball.compliance));

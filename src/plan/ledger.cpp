@@ -55,7 +55,6 @@ void Ledger::book_closing(const Observation& before, const State& state_before, 
   booked_activation_ += stored(before.energy) - stored(laid.energy);
   work_ += stored(separated.energy) - stored(laid.energy);
   carried_damper_ += before.energy.dissipated_damper;
-  carried_couple_ += before.energy.booked_couple;
   const Momentum reactions = reaction_impulse(state_before);
   carried_outside_.linear += reactions.linear;
   carried_outside_.angular += reactions.angular;
@@ -64,12 +63,16 @@ void Ledger::book_closing(const Observation& before, const State& state_before, 
                      half_step_momentum(model_before, state_before).angular;
 }
 
+void Ledger::book_supports(const Momentum& impulse) {
+  carried_outside_.linear += impulse.linear;
+  carried_outside_.angular += impulse.angular;
+}
+
 Energies Ledger::energies(const Observation& now) {
   Energies e = now.energy;
   e.gravity -= gravity_zero_;
   gravity_change_ = std::max(gravity_change_, std::abs(e.gravity));
   e.dissipated_damper += carried_damper_;
-  e.booked_couple += carried_couple_;
   e.booked_activation = booked_activation_;
   e.work_separation = work_;
   const double accounted = stored(e) + e.dissipated_damper + e.dissipated_contact - e.work_separation +

@@ -23,6 +23,8 @@ class Ledger {
   void book_closing(const Observation& before, const State& state_before, const Observation& laid,
                     const Observation& separated, const State& state_after, const Model& model_before,
                     const Model& model_after);
+  /// Impulse that supports gave when they stopped a node at the closing time.
+  void book_supports(const Momentum& impulse);
   /// All terms at the time of `now`.
   Energies energies(const Observation& now);
 
@@ -34,7 +36,7 @@ class Ledger {
  private:
   double initial_ = 0, gravity_zero_ = 0, gravity_change_ = 0;
   double work_ = 0, booked_activation_ = 0;
-  double carried_damper_ = 0, carried_couple_ = 0;  ///< of the phase before closing
+  double carried_damper_ = 0;  ///< J, of the phase before closing
   Momentum start_, carried_outside_, booked_;
 };
 

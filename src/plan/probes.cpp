@@ -56,10 +56,9 @@ std::size_t node_of(const Assembly& assembly, const Subject& subject) {
 // The elements whose greatest tension is meant: those of a part ("thread.NAME", "net.NAME",
 // "mechanism.NAME"), or those that meet at a node.
 std::vector<std::size_t> elements_of(const Assembly& assembly, const Probe& probe) {
-  static constexpr const char* kinds[] = {"net.", "mechanism.", "thread.", "ring."};
   std::vector<std::size_t> found;
   for (const Part& part : assembly.parts)
-    if (probe.of == kinds[static_cast<int>(part.kind)] + part.name)
+    if (probe.of == part.reference())
       for (Index e = 0; e < part.elements; ++e)
         found.push_back(static_cast<std::size_t>(part.first_element + e));
   if (!found.empty()) return found;

@@ -62,10 +62,22 @@ int choose_threads(Index elements, int available) {
   return std::clamp(elements / elements_per_thread, 1, std::max(available, 1));
 }
 
+// What the OpenMP runtime really gives when asked for `wanted` (OMP_THREAD_LIMIT may allow fewer): shares of
+// work are cut for that many.
+static int available_threads(int wanted) {
+  int given = 1;
+#pragma omp parallel num_threads(wanted)
+  {
+#pragma omp single
+    given = omp_get_num_threads();
+  }
+  return given;
+}
+
 Simulation::Simulation(const Scene& scene, int threads) : scene_(scene), preparation_(prepare(scene)) {
   omp_set_dynamic(0);
   const auto elements = static_cast<Index>(preparation_.assembly.elements.size());
-  threads_ = threads > 0 ? threads : choose_threads(elements, omp_get_max_threads());
+  threads_ = available_threads(threads > 0 ? threads : choose_threads(elements, omp_get_max_threads()));
   probe_columns_ = cinch::probe_columns(scene_, preparation_.assembly);
   for (const Net& net : scene_.nets)
     for (const Part& part : preparation_.assembly.parts)
@@ -98,6 +110,7 @@ void Simulation::start() {
   if (preparation_.closing_step == 0) {
     const double before = kinetic_energy(m, state_);
     separate(preparation_.assembly, state_);
+    hold_supports(m, state_);
     work = kinetic_energy(m, state_) - before;
     for (const Mechanism& mechanism : scene_.mechanisms) events_.push_back({0, "separation", mechanism.name});
   }
@@ -126,8 +139,13 @@ void Simulation::close() {
   enter_phase(1);
   const Observation laid = observe(*stepper_, state_);
   separate(preparation_.assembly, state_);
+  const Momentum free = half_step_momentum(model(), state_);
+  hold_supports(model(), state_);
+  const Momentum held = half_step_momentum(model(), state_);
   const Observation separated = observe(*stepper_, state_);
   ledger_.book_closing(before, after, laid, separated, state_, before_model, model());
+  ledger_.book_supports(
+      {held.linear - free.linear, Vec3::Zero()});  // the angular part is in book_closing's difference
   for (const Mechanism& mechanism : scene_.mechanisms)
     events_.push_back({time(), "separation", mechanism.name});
 }
@@ -151,24 +169,24 @@ void Simulation::check_health() {
 
 // A contact that needs more than the elements leave of the stable step would grow without bound.
 void Simulation::check_contacts() const {
-  const auto check = [&](const char* kind, const std::string& name, double share, Index element) {
-    if (!(share > 1)) return;
+  const auto check = [&](const char* kind, const std::string& name, const auto& tally) {
+    if (!(tally.stiffest > 1)) return;
+    const Index element = model().user_element[at(tally.stiffest_element)];
     char text[500];
     std::snprintf(
         text, sizeof text,
-        "error: by t = %.9g s the contact of %s with %s '%s' needed %.3g times what the stable step leaves; "
+        "error: at t = %.9g s the contact of %s with %s '%s' needed %.3g times what the stable step leaves; "
         "likely cause: an impact too hard for the time step %.3g s (or an overlap at the start); a step of "
         "%.2g s would carry it",
-        time(), element_label(preparation_.assembly, model().user_element[at(element)]).c_str(), kind,
-        name.c_str(), share, preparation_.dt, preparation_.dt / std::sqrt(share) * 0.9);
+        tally.stiffest_time, element_label(preparation_.assembly, element).c_str(), kind, name.c_str(),
+        tally.stiffest, preparation_.dt, preparation_.dt / tally.stiffest * 0.9);
     throw NumericalError(text);
   };
   for (std::size_t r = 0; r < state_.rings.size(); ++r)
-    check("ring", preparation_.assembly.rings[r].name, state_.rings[r].stiffest,
-          state_.rings[r].stiffest_element);
+    check("ring", preparation_.assembly.rings[r].name, state_.rings[r]);
   for (std::size_t b = 0; b < state_.balls.size(); ++b)
     for (const kernel::BallTally& tally : state_.balls[b])
-      check("target", preparation_.assembly.balls[b].name, tally.stiffest, tally.stiffest_element);
+      check("target", preparation_.assembly.balls[b].name, tally);
 }
 
 // Names the first node without a finite speed, else the fastest.
@@ -276,9 +294,7 @@ ResultModel Simulation::result_model() const {
     m.element_part.push_back(e.part);
   }
   for (const AssemblyNode& node : assembly.nodes) m.node_mass.push_back(node.mass);
-  static constexpr const char* kinds[] = {"net", "mechanism", "thread", "ring"};
-  for (const Part& part : assembly.parts)
-    m.parts.push_back({kinds[static_cast<int>(part.kind)], part.name, part.closing});
+  for (const Part& part : assembly.parts) m.parts.push_back({kind_name(part.kind), part.name, part.closing});
   for (const AssemblyRing& ring : assembly.rings)
     m.rings.push_back({ring.name, ring.radius, ring.wire_radius});
   for (const AssemblyBall& ball : assembly.balls) m.balls.push_back({ball.name, ball.center, ball.radius});
@@ -327,6 +343,9 @@ Summary Simulation::summary() {
   s.energy_initial = ledger_.initial();
   if (!scene_.output.ledger) s.energy.residual = std::numeric_limits<double>::quiet_NaN();  // books not kept
   s.relative_residual = ledger_.scale() > 0 ? std::abs(s.energy.residual) / ledger_.scale() : 0;
+  if (s.relative_residual > residual_limit)
+    s.warnings.push_back(
+        "energy is not conserved (residual above 1 %); a smaller time.step_s or more damping may help");
   const Momentum drift = ledger_.drift(model(), state_, time());
   s.linear_momentum_drift = drift.linear.norm();
   if (!model().has_gravity) s.angular_momentum_drift = drift.angular.norm();

@@ -5,8 +5,8 @@
 #include "base/result.hpp"
 #include "plan/closing.hpp"
 #include "plan/ledger.hpp"
-#include "scene/mouth.hpp"
 #include "plan/preparation.hpp"
+#include "scene/mouth.hpp"
 
 namespace cinch {
 

@@ -3,8 +3,9 @@
 namespace cinch {
 
 const char* stage_name(StageId stage) {
-  static constexpr const char* names[] = {"axial forces", "ring contact", "target contact", "gather and move",
-                                          "broadphase",   "observe",      "output"};
+  static constexpr const char* names[] = {"axial forces",    "ring contact",    "target contact",
+                                          "gather and move", "threads meeting", "broadphase",
+                                          "observe",         "output"};
   return names[static_cast<std::size_t>(stage)];
 }
 

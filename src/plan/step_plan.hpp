@@ -14,6 +14,7 @@ enum class StageId {
   ring_contact,
   target_contact,
   gather_and_move,
+  meeting,
   broadphase,
   observe,
   output,

@@ -5,6 +5,8 @@
 #include <chrono>
 #include <cmath>
 
+#include "base/error.hpp"
+
 namespace cinch {
 namespace {
 
@@ -165,6 +167,11 @@ Stepper::Verdict Stepper::watch(double& margin_used) const {
   return margin_used < contacts_.margin() ? Verdict::go_on : Verdict::renew_contacts;
 }
 
+void Stepper::meet() const {
+  if (threads_ == 1) return;
+#pragma omp barrier
+}
+
 // The steps of one thread; every thread returns the same number and verdict.
 std::int64_t Stepper::run_thread(State& state, std::int64_t steps, int thread, Verdict& verdict) {
   double margin_used = margin_used_;
@@ -174,21 +181,17 @@ std::int64_t Stepper::run_thread(State& state, std::int64_t steps, int thread, V
   while (done < steps && verdict == Verdict::go_on) {
     forces(state, static_cast<double>(first + done) * plan_.dt, plan_.dt, thread);
     StageClock clock(thread == 0 && (first + done) % timed_every == 0, seconds_);
-    if (threads_ > 1) {
-#pragma omp barrier
-    }
+    meet();
+    clock.tick(StageId::meeting);
     update(thread);
     if (thread == 0) state.step = first + done + 1;
-    if (threads_ > 1) {
-#pragma omp barrier
-    }
     clock.tick(StageId::gather_and_move);
+    meet();
+    clock.tick(StageId::meeting);
     verdict = watch(margin_used);
     ++done;
   }
-  if (threads_ > 1) {
-#pragma omp barrier
-  }
+  meet();
   if (thread == 0) margin_used_ = margin_used;
   return done;
 }
@@ -200,12 +203,16 @@ std::int64_t Stepper::run(State& state, std::int64_t steps, Verdict& verdict) {
 #pragma omp parallel num_threads(threads_)
   {
     Verdict mine = Verdict::go_on;
-    const std::int64_t my_done = run_thread(state, steps, omp_get_thread_num(), mine);
+    // fewer threads than shares would leave work undone; all threads see the same number and none enters the
+    // steps
+    const bool enough = omp_get_num_threads() == threads_;
+    const std::int64_t my_done = enough ? run_thread(state, steps, omp_get_thread_num(), mine) : -1;
     if (omp_get_thread_num() == 0) {
       done = my_done;
       verdict = mine;
     }
   }
+  if (done < 0) throw Error(ExitCode::internal, "error: OpenMP gave fewer threads than it did at the start");
   return done;
 }
 

@@ -1,13 +1,15 @@
 // Moves a state through time: the one place that knows about threads.
+// clang-format off
 //
-// One step, in order:
-//   forces   axial forces of element blocks, contacts of rings, contacts of balls       (each thread its
-//   share) barrier update   gather to node blocks, supports, kick, drift                               (each
-//   thread its share) barrier watch    every thread reads the blocks' greatest speeds and decides alike: go
-//   on, or leave the parallel region
+// One step, in order (each thread takes its share of the blocks and rings):
+//   forces   axial forces of element blocks, contacts of rings, contacts of balls
+//   meet
+//   update   gather to node blocks, supports, kick, drift
+//   meet
+//   watch    every thread reads the blocks' greatest speeds and decides alike: go on, or leave the parallel region
 //            because the broadphase margin may be used up or a speed is out of bounds
-// Shares are stretches of blocks whose edges the model alone decides, so the bits do not depend on the
-// threads.
+// Shares are stretches of blocks whose edges the model alone decides, so the bits do not depend on the threads.
+// clang-format on
 #pragma once
 #include <array>
 #include <cstdint>
@@ -50,6 +52,7 @@ class Stepper {
   void forces(State& state, double time, double booked_dt, int thread);
   void ball_forces(State& state, double time, double booked_dt, int thread);
   void update(int thread);
+  void meet() const;
   Verdict watch(double& margin_used) const;
   std::int64_t run(State& state, std::int64_t steps, Verdict& verdict);
   std::int64_t run_thread(State& state, std::int64_t steps, int thread, Verdict& verdict);

@@ -64,11 +64,22 @@ std::string sizes(const Summary& s) {
          (s.rings == 1 ? " ring" : " rings");
 }
 
+// The residual's verdict: what share of the largest input the books cannot account for.
+std::string residual_words(double relative) {
+  if (!std::isfinite(relative)) return "the case keeps no ledger";
+  const std::string of = "of the largest of initial energy, work put in and gravity's work";
+  return relative > residual_limit ? "ENERGY IS NOT CONSERVED: above 1 % " + of
+                                   : "energy accounted for; " + of;
+}
+
 }  // namespace
 
 std::string status_of(const Digest& d) {
   if (!d.summary) return "unfinished: the run left no summary; what it recorded is shown";
-  return d.summary->message.empty() ? d.summary->status : d.summary->status + ": " + d.summary->message;
+  std::string text = d.summary->status;
+  if (!d.summary->message.empty()) return text + ": " + d.summary->message;
+  for (const std::string& warning : d.summary->warnings) text += "; warning: " + warning;
+  return text;
 }
 
 std::vector<Fact> facts_of(const Digest& d) {
@@ -80,10 +91,8 @@ std::vector<Fact> facts_of(const Digest& d) {
     return facts;
   }
   const Summary& s = *d.summary;
-  facts.push_back(number("energy residual", 100 * s.relative_residual, "%",
-                         std::isfinite(s.relative_residual)
-                             ? "over the larger of initial energy and work put in"
-                             : "the case keeps no ledger"));
+  facts.push_back(
+      number("energy residual", 100 * s.relative_residual, "%", residual_words(s.relative_residual)));
   facts.push_back(number("momentum drift", s.linear_momentum_drift, "kg m/s", "linear"));
   if (s.angular_momentum_drift) facts.push_back(number("... angular", *s.angular_momentum_drift, "kg m²/s"));
   facts.push_back(number("largest penetration", s.max_penetration * 1e3, "mm"));

@@ -45,7 +45,7 @@ class Assembler {
     for (const Thread& thread : scene_.threads)
       if (!thread.closing()) add_thread(thread);
     for (const Ring& ring : scene_.rings)
-      if (ring.host == RingHost::node) add_ring_node(ring);
+      if (ring.host == RingHost::node) ring_node(ring);
     out_.nodes_before = node_count();
     out_.elements_before = element_count();
     for (const Mechanism& mechanism : scene_.mechanisms) add_split_masses(mechanism);
@@ -152,9 +152,7 @@ class Assembler {
     const Index corner = node_of(mechanism.corner, mechanism.source);
     const Net& net = net_named(Reference(mechanism.corner).name, mechanism.source);
     const Vec3 from_center = node(corner).position - net.center;
-    const Vec3 outward = (std::copysign(1.0, from_center.dot(net.x_axis)) * net.x_axis +
-                          std::copysign(1.0, from_center.dot(net.y_axis)) * net.y_axis)
-                             .normalized();
+    const Vec3 outward = from_center.normalized();
     const Index part = begin_part(PartKind::mechanism, mechanism.name);
     const Material& m = material(mechanism.towing_material, mechanism.source);
     const double rest = mechanism.towing_length / mechanism.towing_elements;
@@ -231,7 +229,9 @@ class Assembler {
     });
   }
 
-  void add_ring_node(const Ring& ring) {
+  // The node that carries a ring; made when first asked for, which may be by a thread that hangs on it.
+  Index ring_node(const Ring& ring) {
+    if (const Part* part = find_part(PartKind::ring, ring.name)) return part->nodes.front();
     begin_part(PartKind::ring, ring.name);
     const Index at = add_node(ring.center, ring.velocity);
     out_.parts.back().nodes = {at};
@@ -240,6 +240,7 @@ class Assembler {
     spec.support = ring.support;
     spec.axis = ring.axis;
     apply(spec, at, "ring." + ring.name);
+    return at;
   }
 
   // Masses a and b: until the closing time they sit on the launcher.
@@ -386,20 +387,24 @@ class Assembler {
       return ring.threads.empty() || std::count(ring.threads.begin(), ring.threads.end(), name) > 0 ||
              std::count(ring.threads.begin(), ring.threads.end(), "thread." + name) > 0;
     };
-    for (std::size_t p = 0; p < out_.parts.size(); ++p)
-      if (out_.parts[p].kind == PartKind::thread && out_.parts[p].name != host_thread &&
-          listed(out_.parts[p].name))
+    // a thread that carries the ring, or hangs on it, lies inside its wire for good
+    const auto holds = [&](const Part& part) {
+      return part.name == host_thread || std::count(part.nodes.begin(), part.nodes.end(), r.node) > 0;
+    };
+    for (std::size_t p = 0; p < out_.parts.size(); ++p) {
+      const Part& part = out_.parts[p];
+      if (part.kind == PartKind::thread && !holds(part) && listed(part.name))
         r.parts.push_back(static_cast<Index>(p));
+    }
     out_.rings.push_back(std::move(r));
   }
 
   void add_ball(const BallTarget& ball) {
     AssemblyBall b{
         ball.name, ball.center, ball.radius, compliance(ball.youngs_modulus, ball.poissons_ratio), {}};
-    static const char* const kinds[] = {"net.", "mechanism.", "thread.", "ring."};
     for (std::size_t p = 0; p < out_.parts.size(); ++p) {
       const Part& part = out_.parts[p];
-      const std::string name = kinds[static_cast<int>(part.kind)] + part.name;
+      const std::string name = part.reference();
       if (ball.touches.empty() || std::count(ball.touches.begin(), ball.touches.end(), name) > 0)
         b.parts.push_back(static_cast<Index>(p));
     }
@@ -424,7 +429,8 @@ class Assembler {
       for (const NamedNode& named : out_.named)
         if (named.name == reference) return named.node;
     } else if (at.kind == "ring") {
-      if (const Part* part = find_part(PartKind::ring, at.name)) return part->nodes.front();
+      for (const Ring& ring : scene_.rings)
+        if (ring.name == at.name && ring.host == RingHost::node) return ring_node(ring);
     } else if (at.kind == "thread") {
       if (const Part* part = find_part(PartKind::thread, at.name)) {
         if (at.place == "start") return part->nodes.front();
@@ -460,11 +466,19 @@ class Assembler {
 
   const Scene& scene_;
   Assembly out_;
-  // incident elements as linked lists: half 2 e or 2 e + 1 of element e, and the half before it at the same node
+  // incident elements as linked lists: half 2 e or 2 e + 1 of element e, and the half before it at the same
+  // node
   std::vector<Index> latest_, earlier_;
 };
 
 }  // namespace
+
+const char* kind_name(PartKind kind) {
+  static constexpr const char* names[] = {"net", "mechanism", "thread", "ring"};
+  return names[static_cast<std::size_t>(kind)];
+}
+
+std::string Part::reference() const { return std::string(kind_name(kind)) + "." + name; }
 
 Index Assembly::node_in_net(const Part& part, const std::string& place) const {
   const auto shape = net_shapes.find(part.name);

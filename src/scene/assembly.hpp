@@ -22,7 +22,12 @@ struct Part {
   Index first_element = 0, elements = 0;  ///< its elements are consecutive
   std::vector<Index> nodes;  ///< along a thread in order; of a net row by row; shared nodes included
   bool closing = false;      ///< exists from the closing time on
+
+  std::string reference() const;  ///< "net.main", "thread.c_top", ...
 };
+
+/// "net", "mechanism", "thread" or "ring".
+const char* kind_name(PartKind kind);
 
 struct AssemblyNode {
   Vec3 position;           ///< m, at t = 0 (closing nodes: laid along their carriers)

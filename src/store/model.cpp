@@ -58,6 +58,7 @@ ContactSet make_set(const Model& model, const Assembly& assembly, const std::vec
   for (Index e = 0; e < model.elements; ++e) {
     if (!wanted[at(assembly.elements[at(model.user_element[at(e)])].part)]) continue;
     set.elements.push_back(e);
+    set.thickest = std::max(set.thickest, model.radius[at(e)]);
     ++degree[at(model.end_a[at(e)])];
     ++degree[at(model.end_b[at(e)])];
   }
@@ -80,10 +81,26 @@ Index set_for(Model& model, const Assembly& assembly, const std::vector<Index>& 
   return static_cast<Index>(model.contact_sets.size()) - 1;
 }
 
+// The threads that a ring can touch in this phase; a ring on a closing thread is not there before it.
+std::vector<Index> parts_now(const Model& model, const Assembly& assembly, const AssemblyRing& ring) {
+  std::vector<Index> parts;
+  if (ring.element >= model.elements) return parts;
+  for (const Index p : ring.parts)
+    if (assembly.parts[at(p)].first_element < model.elements) parts.push_back(p);
+  return parts;
+}
+
+// All rings of the scene, or none when no ring has anything to touch in this phase.
 void fill_rings(Model& model, const Assembly& assembly, bool count_once) {
+  std::size_t touching = 0;
+  for (const AssemblyRing& ring : assembly.rings) touching += parts_now(model, assembly, ring).size();
+  if (touching == 0) return;
   for (const AssemblyRing& ring : assembly.rings) {
     kernel::RingGeometry geometry{};
-    if (ring.element >= 0) {
+    const std::vector<Index> parts = parts_now(model, assembly, ring);
+    if (ring.element >= model.elements) {
+      geometry.a = geometry.b = 0;  // touches nothing yet: never read
+    } else if (ring.element >= 0) {
       geometry.a = assembly.elements[at(ring.element)].a;
       geometry.b = assembly.elements[at(ring.element)].b;
     } else {
@@ -91,11 +108,8 @@ void fill_rings(Model& model, const Assembly& assembly, bool count_once) {
     }
     for (int d = 0; d < 3; ++d) geometry.normal[d] = ring.normal[d];
     geometry.radius = ring.radius;
-    model.ring_set.push_back(set_for(model, assembly, ring.parts, count_once));
-    double thickest = 0;
-    for (const Index e : model.contact_sets[at(model.ring_set.back())].elements)
-      thickest = std::max(thickest, model.radius[at(e)]);
-    geometry.reach = ring.radius + ring.wire_radius + thickest;
+    model.ring_set.push_back(set_for(model, assembly, parts, count_once));
+    geometry.reach = ring.radius + ring.wire_radius + model.contact_sets[at(model.ring_set.back())].thickest;
     model.rings.push_back(geometry);
     model.ring_wire_radius.push_back(ring.wire_radius);
     model.ring_compliance.push_back(ring.compliance);
@@ -111,8 +125,7 @@ Model build_model(const Assembly& assembly, const Scene& scene, Stage stage) {
   cut_element_blocks(runs, model.spans, model.element_blocks);
   cut_node_blocks(model.nodes, runs, model.constraints, model.node_blocks, model.pieces);
   const bool count_once = scene.contact.shared_node == SharedNode::once;
-  const bool before = stage == Stage::before_closing && assembly.has_closing();
-  if (!before) fill_rings(model, assembly, count_once);
+  fill_rings(model, assembly, count_once);
   for (const AssemblyBall& ball : assembly.balls)
     model.balls.push_back(
         {ball.center, ball.radius, ball.compliance, set_for(model, assembly, ball.parts, count_once)});

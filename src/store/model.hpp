@@ -12,10 +12,11 @@ namespace cinch {
 
 /// The elements that one group of rings or one ball can touch, in ascending store order.
 struct ContactSet {
-  std::vector<Index> parts;     ///< parts of the assembly, what makes two sets the same
-  std::vector<Index> elements;  ///< store numbers
+  std::vector<Index> parts;     // parts of the assembly: what makes two sets the same
+  std::vector<Index> elements;  // store numbers, ascending
+  double thickest = 0;          // greatest thread radius, m
   std::vector<double> weight_a,
-      weight_b;  ///< by element: (degree - 1) / degree of its end nodes within the set
+      weight_b;  // by element: (degree - 1) / degree of its end nodes within the set
 };
 
 struct Model {
@@ -60,7 +61,7 @@ struct Model {
 
 /// Which part of an assembly a model holds.
 enum class Stage {
-  before_closing,  ///< without closing threads, split masses and ring contact; mass_before
+  before_closing,  ///< without closing threads and split masses; mass_before
   closing          ///< everything
 };
 
