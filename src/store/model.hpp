@@ -10,30 +10,31 @@
 
 namespace cinch {
 
+// clang-format off: tables
 /// The elements that one group of rings or one ball can touch, in ascending store order.
 struct ContactSet {
-  std::vector<Index> parts;     // parts of the assembly: what makes two sets the same
-  std::vector<Index> elements;  // store numbers, ascending
-  double thickest = 0;          // greatest thread radius, m
-  std::vector<double> weight_a,
-      weight_b;  // by element: (degree - 1) / degree of its end nodes within the set
+  // field                             meaning                                               unit   shape
+  std::vector<Index> parts;      // parts of the assembly: what makes two sets the same
+  std::vector<Index> elements;   // store numbers, ascending
+  double thickest = 0;           // greatest thread radius                                m
+  std::vector<double> weight_a;  // (degree - 1) / degree of end a within the set         -      elements
+  std::vector<double> weight_b;  // ... of end b                                          -      elements
 };
 
 struct Model {
   Index nodes = 0, elements = 0;
 
-  // node                          meaning                                      unit   shape
-  AlignedVector<double> mass;          // lumped mass, eq. (2)                kg     node
-  AlignedVector<double> inverse_mass;  //                                     1/kg   node
+  // field                             meaning                                               unit   shape
+  AlignedVector<double> mass;          // lumped mass, eq. (2)                               kg     node
+  AlignedVector<double> inverse_mass;  //                                                    1/kg   node
 
-  // element (store order)
-  AlignedVector<double> stiffness;    // k                                   N/m    element
-  AlignedVector<double> damping;      // c                                   N s/m  element
-  AlignedVector<double> rest_length;  // l0                                  m      element
-  std::vector<Index> end_a, end_b;    // end nodes (cold: set-up, messages)         element
-  std::vector<double> radius;         // of the thread                       m      element
-  std::vector<double> compliance;     // h of eq. (8)                        1/Pa   element
-  std::vector<Index> user_element;    // store number -> user's number              element
+  AlignedVector<double> stiffness;    // k                                                  N/m    element
+  AlignedVector<double> damping;      // c                                                  N s/m  element
+  AlignedVector<double> rest_length;  // l0                                                 m      element
+  std::vector<Index> end_a, end_b;    // end nodes (cold: set-up, messages)                        element
+  std::vector<double> radius;         // of the thread                                      m      element
+  std::vector<double> compliance;     // h of eq. (8)                                       1/Pa   element
+  std::vector<Index> user_element;    // store number -> user's number                             element
 
   // what each block of elements computes and each block of nodes gathers
   std::vector<kernel::Span> spans;
@@ -45,8 +46,8 @@ struct Model {
   // contact
   std::vector<ContactSet> contact_sets;
   std::vector<kernel::RingGeometry> rings;
-  std::vector<Index> ring_set;  // contact set of each ring
-  std::vector<double> ring_wire_radius, ring_compliance;
+  std::vector<Index> ring_set;  // contact set of each ring                                  ring
+  std::vector<double> ring_wire_radius, ring_compliance;  // r_B, h of eq. (8)               m, 1/Pa ring
   struct Ball {
     Vec3 center;
     double radius = 0, compliance = 0;
@@ -58,6 +59,7 @@ struct Model {
   Vec3 gravity = Vec3::Zero();
   bool has_gravity = false;
 };
+// clang-format on
 
 /// Which part of an assembly a model holds.
 enum class Stage {
