@@ -28,8 +28,13 @@ cinch_install() {
 
 cinch_build() {
   cinch_install "${cinch_packages[@]}"
-  if [ ! -f "$cinch_root/build/release/build.ninja" ]; then
+  local build=$cinch_root/build/release
+  # a folder that was copied or moved brings a build of its old place
+  if [ -d "$build" ] && ! grep -qsxF "CMAKE_HOME_DIRECTORY:INTERNAL=$cinch_root" "$build/CMakeCache.txt"; then
+    rm -rf "$build"
+  fi
+  if [ ! -f "$build/build.ninja" ]; then
     (cd "$cinch_root" && cmake --preset release >&2)
   fi
-  cmake --build "$cinch_root/build/release" --target "$@" >&2
+  cmake --build "$build" --target "$@" >&2
 }

@@ -19,12 +19,13 @@ inline double step_weight(const kernel::ContactArguments& g, const ContactForce&
   return 0.25 * g.step * g.step * law.stiffness + 0.5 * g.step * law.damping;
 }
 
-/// Elements that meet at an end node and may touch the same thing at once; two where the rule does not tell.
-inline double multiplicity(double weight) { return weight > 0 ? 1 / (1 - weight) : 2.0; }
+/// How often one contact can load an end node: once where shared nodes are taken off (weight > 0): next to
+/// the node the neighbours' contacts cancel by inclusion and exclusion. Twice where they are not (the paper's
+/// rule; thread ends).
+inline double multiplicity(double weight) { return weight > 0 ? 1.0 : 2.0; }
 
-/// Share of the stable step that contacts use on the thread's side: each end node may carry one contact for
-/// each of its elements, with the mass that the elements leave over (node_share). Never below the largest
-/// eigenvalue's share.
+/// Share of the stable step that a contact uses on the thread's side, with the mass that the elements leave over
+/// (node_share).
 inline double thread_share(const kernel::ContactArguments& g, const kernel::Candidate& c, double t,
                            double kappa) {
   return kappa * ((1 - t) * (1 - t) * multiplicity(c.weight_a) * g.node_share[c.a] +
