@@ -71,8 +71,8 @@ class Simulation {
   std::vector<Event> events_;  ///< those noted here; contacts are kept in the tallies
 };
 
-/// Threads that pay for a scene of this size on this machine: one below the size that bench/ measured as
-/// break-even.
+/// Threads that pay for a scene of this size: one for each 8000 elements or so, as below that two meetings a step cost
+/// more than they save (bench/bench_growth.cpp measures both sides on a given machine).
 int choose_threads(Index elements, int available);
 
 }  // namespace cinch
