@@ -128,6 +128,39 @@ TEST(Impact, HertzOnABall) {
                  ball_stiffness());
 }
 
+/// The striker's mass as a sphere of 0.02 m: it touches long before the thread behind it does.
+Scene sphere_impact(double speed, double alpha, const Sphere& sphere) {
+  Scene scene = impact(ball_radius + sphere.radius, speed);
+  scene.contact.alpha_target = alpha;
+  scene.threads[0].start.sphere = sphere;
+  scene.targets.push_back({"ball", Vec3::Zero(), ball_radius, 2e9, 0.39, {}, {}});
+  return scene;
+}
+
+TEST(Impact, HertzOfAMassAsASphere) {
+  const double own = hertz_stiffness(0.02, ball_radius, compliance(5e8, 0.25), compliance(2e9, 0.39));
+  expect_hertz(follow(sphere_impact(1, 0, {0.02, 5e8, 0.25}), ball_radius + 0.02), striker, 1, own);
+  const double as_target = hertz_stiffness(0.02, ball_radius, compliance(2e9, 0.39), compliance(2e9, 0.39));
+  expect_hertz(follow(sphere_impact(1, 0, {0.02, 0, 0.3}), ball_radius + 0.02), striker, 1, as_target);
+  const Impact damped = follow(sphere_impact(1, 0.25, {0.02, 0, 0.3}), ball_radius + 0.02);
+  EXPECT_NEAR(damped.rebound, 0.7992, 1e-3);
+  EXPECT_LT(damped.summary.relative_residual, 2e-3);
+}
+
+TEST(Impact, MassTouchesOnlyWhereItsThreadDoes) {
+  Scene scene = sphere_impact(1, 0, {0.02, 0, 0.3});
+  scene.targets[0].touches = {"thread.other"};
+  Thread other = scene.threads[0];
+  other.name = "other";
+  other.points = {Vec3(9, 0, 0), Vec3(9, 1, 0)};
+  other.start = {};
+  scene.threads.push_back(other);
+  Simulation sim(scene, 1);
+  run_until(sim, 0.02);
+  EXPECT_NEAR(sim.state().vx[0], -1, 1e-12);
+  EXPECT_LT(place(sim, 0).x(), ball_radius + 0.02 - 0.019);
+}
+
 TEST(Impact, HertzOnAHeldRing) {
   for (const double speed : {0.1, 1.0})
     expect_hertz(follow(ring_impact(speed, 0, Support::fixed), ring_radius + wire_radius + thread_radius),

@@ -285,6 +285,19 @@ TEST(OracleAgreementFromStart, CaptureAcrossClosing) {
   compare_from_start(read("capture", near_capture("0.00003")), 40);
 }
 
+// Launchers reach the ball as spheres from the start on, split masses from their separation on.
+TEST(OracleAgreementFromStart, CaptureWithMassesAsSpheres) {
+  Scene scene = read("capture", near_capture("0.00003"));
+  const Assembly assembly = assemble(scene);
+  for (Mechanism& m : scene.mechanisms) {
+    const Vec3 launcher = assembly.nodes[at(assembly.node_of("mechanism." + m.name + ".launcher"))].position;
+    const double gap = (launcher - scene.targets[0].center).norm() - scene.targets[0].radius;
+    m.launcher_sphere = {gap + 1e-5, 0, 0.3};
+    m.split_sphere = {gap + 2e-5, 3e8, 0.2};
+  }
+  compare_from_start(scene, 40);
+}
+
 TEST(OracleAgreementFromStart, CaptureStowedAcrossClosing) {
   compare_from_start(
       read("capture", {{"closing.time_s", "0.00003"}, {"target.ball.center_m", "[0, 0, 0.1505]"}}), 36);

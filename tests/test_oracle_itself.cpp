@@ -454,7 +454,7 @@ TEST(Oracle, BallForcesAreTheGradientOfThePotentials) {
   for (int trial = 0; trial < 20; ++trial) {
     Tiny tiny = forked_thread_on_ring(true, random);
     tiny.assembly.rings.clear();
-    tiny.assembly.balls.push_back({"ball", Vec3(0.0583, -0.004, 0), 0.05, 1e-8, {0}});
+    tiny.assembly.balls.push_back({"ball", Vec3(0.0583, -0.004, 0), 0.05, 1e-8, {0}, {}});
     tiny.scene.contact.shared_node = trial % 2 == 0 ? SharedNode::once : SharedNode::paper;
     ASSERT_GE(tiny.evaluated().contacts, 2) << trial;
     EXPECT_LT(gradient_error(tiny), 1e-6) << trial;
@@ -548,7 +548,7 @@ Tiny impact(double alpha) {
   tiny.node({-far, 0.002, 0}, {1, 0, 0}, 0.005);
   tiny.element(0, 1, 0, 1.5);
   tiny.assembly.elements[0].compliance = 1e-6;
-  tiny.assembly.balls.push_back({"ball", Vec3::Zero(), 0.15, 1e-6, {0}});
+  tiny.assembly.balls.push_back({"ball", Vec3::Zero(), 0.15, 1e-6, {0}, {}});
   tiny.scene.contact.alpha_target = alpha;
   return tiny;
 }
@@ -658,7 +658,7 @@ TEST(Oracle, WithoutAClosingTimeAllExistsFromTheStart) {
 TEST(Oracle, BallTouchesWhatExists) {
   Tiny tiny = closing_scene(0.0094);
   tiny.assembly.rings.clear();
-  tiny.assembly.balls.push_back({"ball", Vec3(0.008, 0.0, 0), 0.0082, 1e-8, {1, 2}});
+  tiny.assembly.balls.push_back({"ball", Vec3(0.008, 0.0, 0), 0.0082, 1e-8, {1, 2}, {}});
   Oracle oracle = tiny.started();
   oracle.step();
   EXPECT_EQ(oracle.result().contacts_seen, 1);  // the leaning thread, before the closing time

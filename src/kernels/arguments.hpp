@@ -77,14 +77,18 @@ struct Watch {
   double greatest, sum;
 };
 
-/// One element that may touch one ring or ball before the broadphase margin is used up.
+/// One element, or one mass as a sphere (a == b), that may touch one ring or ball before the broadphase
+/// margin is used up.
 struct Candidate {
   Index a, b;                 ///< nodes
-  Index element;              ///< for messages
+  Index element;              ///< for messages; sphere_label(node) of a sphere
   double contact_distance;    ///< r_A + r_B: centre lines closer than this touch, m (ball: r_A + R)
   double stiffness;           ///< k_c of eq. (7), N/m^1.5
   double weight_a, weight_b;  ///< share of the end node's contact to take off: (degree - 1) / degree, or 0
 };
+
+/// What stands for the element of a sphere around the node; its own inverse.
+constexpr Index sphere_label(Index node) { return -1 - node; }
 
 struct RingGeometry {
   Index a, b;        ///< host nodes; the same for a ring with a node of its own

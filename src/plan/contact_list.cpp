@@ -34,6 +34,17 @@ kernel::Candidate candidate(const Model& model, const ContactSet& set, Index pos
           set.weight_b[at(position)]};
 }
 
+// A sphere is an element without length: both ends are its node.
+kernel::Candidate candidate(const Model::Sphere& sphere, const Model::Ball& ball) {
+  return {sphere.node,
+          sphere.node,
+          kernel::sphere_label(sphere.node),
+          sphere.radius + ball.radius,
+          plain::contact_stiffness(sphere.radius, ball.radius, sphere.compliance, ball.compliance),
+          0,
+          0};
+}
+
 Vec3 ring_center(const State& state, const kernel::RingGeometry& ring) {
   const auto a = at(ring.a), b = at(ring.b);
   return 0.5 * Vec3(state.x[a] + state.x[b], state.y[a] + state.y[b], state.z[a] + state.z[b]);
@@ -95,6 +106,10 @@ void ContactList::find_ball_candidates(const Model& model, const State& state) {
                                pairs_tested_);
     for (const Index position : found_)
       candidates.push_back(candidate(model, set, position, ball.radius, ball.radius, ball.compliance));
+    for (const Model::Sphere& sphere : ball.spheres)
+      if (distance_to_element(state, sphere.node, sphere.node, ball.center) <=
+          ball.radius + sphere.radius + margin_)
+        candidates.push_back(candidate(sphere, ball));
     ball_begin.push_back(static_cast<Index>(candidates.size()));
   }
 }

@@ -171,15 +171,18 @@ void Simulation::check_health() {
 void Simulation::check_contacts() const {
   const auto check = [&](const char* kind, const std::string& name, const auto& tally) {
     if (!(tally.stiffest > 1)) return;
-    const Index element = model().user_element[at(tally.stiffest_element)];
+    const Index stiffest = tally.stiffest_element;
+    const std::string what = stiffest < 0
+                                 ? node_label(preparation_.assembly, kernel::sphere_label(stiffest))
+                                 : element_label(preparation_.assembly, model().user_element[at(stiffest)]);
     char text[500];
     std::snprintf(
         text, sizeof text,
         "error: at t = %.9g s the contact of %s with %s '%s' needed %.3g times what the stable step leaves; "
         "likely cause: an impact too hard for the time step %.3g s (or an overlap at the start); a step of "
         "%.2g s would carry it",
-        tally.stiffest_time, element_label(preparation_.assembly, element).c_str(), kind, name.c_str(),
-        tally.stiffest, preparation_.dt, preparation_.dt / tally.stiffest * 0.9);
+        tally.stiffest_time, what.c_str(), kind, name.c_str(), tally.stiffest, preparation_.dt,
+        preparation_.dt / tally.stiffest * 0.9);
     throw NumericalError(text);
   };
   for (std::size_t r = 0; r < state_.rings.size(); ++r)

@@ -114,7 +114,14 @@ class Assembler {
     }
   }
 
-  void apply(const NodeSpec& spec, Index at, const std::string& name) {
+  void add_sphere(const Sphere& sphere, Index at, const std::string& name, Index part) {
+    if (!(sphere.radius > 0)) return;
+    AssemblySphere s{name, at, sphere.radius, std::nullopt, part};
+    if (sphere.youngs_modulus > 0) s.compliance = compliance(sphere.youngs_modulus, sphere.poissons_ratio);
+    out_.spheres.push_back(std::move(s));
+  }
+
+  void apply(const NodeSpec& spec, Index at, const std::string& name, Index part) {
     AssemblyNode& n = node(at);
     n.mass += spec.mass;
     if (spec.support != Support::free) {
@@ -125,6 +132,7 @@ class Assembler {
     if (n.support == Support::fixed) n.velocity.setZero();
     if (n.support == Support::guided) n.velocity = n.axis.dot(n.velocity) * n.axis;
     if (spec.mass > 0) out_.named.push_back({name, at, spec.mass});
+    add_sphere(spec.sphere, at, name, part);
   }
 
   void add_net(const Net& net) {
@@ -143,7 +151,7 @@ class Assembler {
     for (const auto& [place, spec] : net.nodes) {
       const Index at = pattern.place(place);
       if (at < 0) fail(spec.source, "net '" + net.name + "' has no node '" + place + "'");
-      apply(spec, first + at, "net." + net.name + "." + place);
+      apply(spec, first + at, "net." + net.name + "." + place, part);
     }
   }
 
@@ -165,8 +173,9 @@ class Assembler {
     node(nodes.back()).velocity = mechanism.launch_velocity;
     node(nodes.back()).mass += mechanism.launcher_mass;
     out_.parts.back().nodes = nodes;
-    out_.named.push_back(
-        {"mechanism." + mechanism.name + ".launcher", nodes.back(), mechanism.launcher_mass});
+    const std::string launcher = "mechanism." + mechanism.name + ".launcher";
+    out_.named.push_back({launcher, nodes.back(), mechanism.launcher_mass});
+    add_sphere(mechanism.launcher_sphere, nodes.back(), launcher, part);
   }
 
   const Net& net_named(const std::string& name, const SourceRef& source) const {
@@ -208,7 +217,7 @@ class Assembler {
     }
     for (int k = 0; k <= thread.elements; ++k)
       if (const NodeSpec* spec = spec_of(thread, k))
-        apply(*spec, nodes[static_cast<std::size_t>(k)], node_name(thread, k));
+        apply(*spec, nodes[static_cast<std::size_t>(k)], node_name(thread, k), part);
     out_.parts[static_cast<std::size_t>(part)].nodes = std::move(nodes);
   }
 
@@ -232,25 +241,28 @@ class Assembler {
   // The node that carries a ring; made when first asked for, which may be by a thread that hangs on it.
   Index ring_node(const Ring& ring) {
     if (const Part* part = find_part(PartKind::ring, ring.name)) return part->nodes.front();
-    begin_part(PartKind::ring, ring.name);
+    const Index part = begin_part(PartKind::ring, ring.name);
     const Index at = add_node(ring.center, ring.velocity);
     out_.parts.back().nodes = {at};
     NodeSpec spec;
     spec.mass = ring.mass;
     spec.support = ring.support;
     spec.axis = ring.axis;
-    apply(spec, at, "ring." + ring.name);
+    apply(spec, at, "ring." + ring.name, part);
     return at;
   }
 
   // Masses a and b: until the closing time they sit on the launcher.
   void add_split_masses(const Mechanism& mechanism) {
-    const Index launcher = find_part(PartKind::mechanism, mechanism.name)->nodes.back();
-    const auto add = [&](const char* side, const Vec3& jump) {
+    const Part& towing = *find_part(PartKind::mechanism, mechanism.name);
+    const Index launcher = towing.nodes.back(), part = static_cast<Index>(&towing - out_.parts.data());
+    const auto add = [&](const std::string& side, const Vec3& jump) {
       const Index at = add_node(node(launcher).position, node(launcher).velocity);
       node(at).mass = mechanism.split_mass;
       out_.lays.push_back({at, launcher, launcher, 0, Vec3::Zero(), jump});
-      out_.named.push_back({"mechanism." + mechanism.name + "." + side, at, mechanism.split_mass});
+      const std::string name = "mechanism." + mechanism.name + "." + side;
+      out_.named.push_back({name, at, mechanism.split_mass});
+      add_sphere(mechanism.split_sphere, at, name, part);
     };
     add("a", mechanism.separation_a);
     add("b", mechanism.separation_b);
@@ -400,14 +412,20 @@ class Assembler {
   }
 
   void add_ball(const BallTarget& ball) {
-    AssemblyBall b{
-        ball.name, ball.center, ball.radius, compliance(ball.youngs_modulus, ball.poissons_ratio), {}};
+    AssemblyBall b;
+    b.name = ball.name;
+    b.center = ball.center;
+    b.radius = ball.radius;
+    b.compliance = compliance(ball.youngs_modulus, ball.poissons_ratio);
     for (std::size_t p = 0; p < out_.parts.size(); ++p) {
       const Part& part = out_.parts[p];
       const std::string name = part.reference();
       if (ball.touches.empty() || std::count(ball.touches.begin(), ball.touches.end(), name) > 0)
         b.parts.push_back(static_cast<Index>(p));
     }
+    for (std::size_t s = 0; s < out_.spheres.size(); ++s)
+      if (std::count(b.parts.begin(), b.parts.end(), out_.spheres[s].part) > 0)
+        b.spheres.push_back(static_cast<Index>(s));
     out_.balls.push_back(std::move(b));
   }
 

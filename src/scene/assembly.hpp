@@ -6,6 +6,7 @@
 // time is therefore the front part of the scene after it.
 #pragma once
 #include <array>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -78,8 +79,18 @@ struct AssemblyBall {
   std::string name;
   Vec3 center;
   double radius = 0;
-  double compliance = 0;     ///< 1/Pa
-  std::vector<Index> parts;  ///< the parts that can touch it
+  double compliance = 0;       ///< 1/Pa
+  std::vector<Index> parts;    ///< the parts that can touch it
+  std::vector<Index> spheres;  ///< the masses that can touch it
+};
+
+/// A mass that touches targets as a sphere around its node.
+struct AssemblySphere {
+  std::string name;  ///< as a NamedNode
+  Index node = 0;
+  double radius = 0;                 ///< m
+  std::optional<double> compliance;  ///< h of eq. (8), 1/Pa; none: as the target's
+  Index part = 0;                    ///< touches what this part touches
 };
 
 /// A node that carries a mass worth naming in results: "mechanism.m1.a", "thread.main.start", ...
@@ -97,6 +108,7 @@ struct Assembly {
   std::vector<Lay> lays;                        ///< one for each node from nodes_before on, in order
   std::vector<Recoil> recoils;                  ///< launchers, where not zero
   std::vector<AssemblyRing> rings;
+  std::vector<AssemblySphere> spheres;
   std::vector<AssemblyBall> balls;
   std::vector<NamedNode> named;
   std::map<std::string, Net> net_shapes;  ///< what places such as "top_left" mean

@@ -44,6 +44,13 @@ struct Material {
 
 enum class Support { free, guided, fixed };
 
+/// The body of a node's mass, as far as targets feel it.
+struct Sphere {
+  double radius = 0;            ///< m; 0: a point, which touches nothing
+  double youngs_modulus = 0;    ///< Pa; 0: as the target that it touches
+  double poissons_ratio = 0.3;  ///< -
+};
+
 /// What hangs on one node besides the threads' own mass.
 struct NodeSpec {
   std::string on;   ///< share the node of another part ("mechanism.m1.a", "net.main.top_left"), or empty
@@ -51,6 +58,7 @@ struct NodeSpec {
   Support support = Support::free;
   Vec3 axis = Vec3::UnitX();     ///< direction of motion of a guided node
   std::optional<Vec3> velocity;  ///< m/s, instead of the part's own initial velocity
+  Sphere sphere;                 ///< touches targets where its thread or net does
   SourceRef source;
 };
 
@@ -124,8 +132,9 @@ struct Mechanism {
   double towing_diameter = 0;  ///< m
   double towing_length = 0;    ///< unstretched, m
   int towing_elements = 1;
-  double launcher_mass = 0;             ///< kg, what remains after the separation
-  double split_mass = 0;                ///< kg, each of the two
+  double launcher_mass = 0;  ///< kg, what remains after the separation
+  double split_mass = 0;     ///< kg, each of the two
+  Sphere launcher_sphere, split_sphere;
   Vec3 launch_velocity = Vec3::Zero();  ///< m/s at t = 0
   Vec3 separation_a = Vec3::Zero();     ///< m/s, added to mass a at the closing time
   Vec3 separation_b = Vec3::Zero();     ///< m/s

@@ -116,6 +116,19 @@ void fill_rings(Model& model, const Assembly& assembly, bool count_once) {
   }
 }
 
+void fill_balls(Model& model, const Assembly& assembly, bool count_once) {
+  for (const AssemblyBall& ball : assembly.balls) {
+    model.balls.push_back(
+        {ball.center, ball.radius, ball.compliance, set_for(model, assembly, ball.parts, count_once), {}});
+    for (const Index s : ball.spheres) {
+      const AssemblySphere& sphere = assembly.spheres[at(s)];
+      if (sphere.node < model.nodes)  // split masses come with the closing
+        model.balls.back().spheres.push_back(
+            {sphere.node, sphere.radius, sphere.compliance.value_or(ball.compliance)});
+    }
+  }
+}
+
 }  // namespace
 
 Model build_model(const Assembly& assembly, const Scene& scene, Stage stage) {
@@ -126,9 +139,7 @@ Model build_model(const Assembly& assembly, const Scene& scene, Stage stage) {
   cut_node_blocks(model.nodes, runs, model.constraints, model.node_blocks, model.pieces);
   const bool count_once = scene.contact.shared_node == SharedNode::once;
   fill_rings(model, assembly, count_once);
-  for (const AssemblyBall& ball : assembly.balls)
-    model.balls.push_back(
-        {ball.center, ball.radius, ball.compliance, set_for(model, assembly, ball.parts, count_once)});
+  fill_balls(model, assembly, count_once);
   if (scene.gravity) {
     model.gravity = *scene.gravity;
     model.has_gravity = model.gravity.norm() > 0;

@@ -48,10 +48,15 @@ struct Model {
   std::vector<kernel::RingGeometry> rings;
   std::vector<Index> ring_set;  // contact set of each ring                                  ring
   std::vector<double> ring_wire_radius, ring_compliance;  // r_B, h of eq. (8)               m, 1/Pa ring
+  struct Sphere {                                         // a mass that touches a ball
+    Index node = 0;
+    double radius = 0, compliance = 0;
+  };
   struct Ball {
     Vec3 center;
     double radius = 0, compliance = 0;
     Index set = 0;
+    std::vector<Sphere> spheres;
   };
   std::vector<Ball> balls;
 

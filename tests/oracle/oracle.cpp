@@ -329,6 +329,28 @@ void Oracle::add_ball(Index i, const Motion& m, Evaluation& sum) const {
     push_ball(i, ball_site(i, c.element, 0, m), -c.repeated_a, sum);
     push_ball(i, ball_site(i, c.element, 1, m), -c.repeated_b, sum);
   }
+  add_spheres(i, m, sum);
+}
+
+/// Masses that touch the ball as spheres, eqs. (6)-(9) between two spheres.
+void Oracle::add_spheres(Index i, const Motion& m, Evaluation& sum) const {
+  const AssemblyBall& ball = at(assembly_.balls, i);
+  for (const Index s : ball.spheres) {
+    const cinch::AssemblySphere& sphere = at(assembly_.spheres, s);
+    if (sphere.node >= nodes_) continue;
+    const Vec3 from_center = at(m.x, sphere.node) - ball.center;
+    const double delta = sphere.radius + ball.radius - from_center.norm();
+    if (!(delta > 0)) continue;
+    const Vec3 direction = from_center.normalized();
+    const double delta_dot = -direction.dot(at(m.v, sphere.node));
+    const double stiffness = contact_stiffness(sphere.radius, ball.radius,
+                                               sphere.compliance.value_or(ball.compliance), ball.compliance);
+    const Push push = hunt_crossley(stiffness, scene_.contact.alpha_target, delta, delta_dot);
+    at(sum.force, sphere.node) += push.total * direction;
+    sum.contact += push.potential;
+    sum.contact_power += (push.total - push.elastic) * delta_dot;
+    ++sum.contacts;
+  }
 }
 
 Oracle::Site Oracle::ball_site(Index i, Index element, double t, const Motion& m) const {

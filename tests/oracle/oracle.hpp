@@ -29,7 +29,7 @@ struct Evaluation {
   double gravitational = 0;      ///< J, zero for a node at the origin
   double damper_power = 0;       ///< W, lost in the elements' dampers
   double contact_power = 0;      ///< W, lost in contacts
-  long contacts = 0;             ///< elements that touch a ring or a ball
+  long contacts = 0;             ///< elements and spheres that touch a ring or a ball
 };
 
 /// State after n steps. Before the closing time the vectors hold the nodes that exist by then.
@@ -88,6 +88,7 @@ class Oracle {
   void add_element(Index element, const Motion& m, Evaluation& sum) const;
   void add_ring(Index ring, const Motion& m, Evaluation& sum) const;
   void add_ball(Index ball, const Motion& m, Evaluation& sum) const;
+  void add_spheres(Index ball, const Motion& m, Evaluation& sum) const;
 
   Frame frame_of(const cinch::AssemblyRing& ring, const Motion& m) const;
   Site ring_site(Index ring, const Frame& frame, Index element, double t, const Motion& m) const;
