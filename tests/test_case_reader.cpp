@@ -567,6 +567,31 @@ TEST(CaseReader, AFaultyPartIsNoSecondError) {
   EXPECT_EQ(count_errors(error), 1u) << error;
 }
 
+TEST(CaseReader, AFaultyEndIsNoSecondError) {
+  EXPECT_EQ(count_errors(error_of(minimal, {{"time.end_s", "-1"}, {"time.step_s", "1e-6"}})), 1u);
+}
+
+TEST(CaseReader, MassesAreSpheresWhereTheyHaveARadius) {
+  const Scene scene = parse_case(
+      head + aramid + net + mechanism + "launcher_radius_m = 0.02\nsplit_radius_m = 0.03\n" +
+          "split_youngs_modulus_Pa = 2e9\n[thread.t]\nmaterial = \"aramid\"\ndiameter_m = 0.002\n" +
+          "elements = 1\npoints_m = [[0, 0, 1], [0, 0, 2]]\nend = { mass_kg = 1, radius_m = 0.1, "
+          "youngs_modulus_Pa = 3e9, poissons_ratio = 0.2 }\n[closing]\ntime_s = 0\n",
+      "t.toml");
+  const Mechanism& m = scene.mechanisms[0];
+  EXPECT_EQ(m.launcher_sphere.radius, 0.02);
+  EXPECT_EQ(m.launcher_sphere.youngs_modulus, 0);  // as the target
+  EXPECT_EQ(m.split_sphere.radius, 0.03);
+  EXPECT_EQ(m.split_sphere.youngs_modulus, 2e9);
+  EXPECT_EQ(m.split_sphere.poissons_ratio, 0.3);
+  const Sphere& end = scene.threads[0].end.sphere;
+  EXPECT_EQ(end.radius, 0.1);
+  EXPECT_EQ(end.youngs_modulus, 3e9);
+  EXPECT_EQ(end.poissons_ratio, 0.2);
+  EXPECT_EQ(scene.threads[0].start.sphere.radius, 0);
+  expect_error(minimal + "start = { youngs_modulus_Pa = 1e9 }\n", {"has a meaning only beside 'radius_m'"});
+}
+
 TEST(CaseReader, ClosingThreadsNeedAClosingTime) {
   expect_error(head + aramid + net +
                    "[thread.c]\nmaterial = \"aramid\"\ndiameter_m = 0.002\nelements = 10\nalong = "

@@ -268,6 +268,10 @@ bool machine_has(const std::string& isa) {
   return isa == "base";
 }
 
+bool build_has(const std::string& isa) {
+  return std::string(" " CINCH_KERNEL_ISAS " ").find(" " + isa + " ") != std::string::npos;
+}
+
 class InstructionSets : public testing::TestWithParam<const char*> {
  protected:
   void SetUp() override {
@@ -295,11 +299,12 @@ class InstructionSets : public testing::TestWithParam<const char*> {
 TEST_P(InstructionSets, GiveTheSameHash) {
   const std::string isa = GetParam();
   if (!machine_has(isa)) GTEST_SKIP() << "this machine has no x86-64-" << isa;
+  if (!build_has(isa)) GTEST_SKIP() << "this build has no kernels for x86-64-" << isa;
   for (const Case& one : {ring_pull(), edge_closure(), capture(), small_large_capture()}) {
     SCOPED_TRACE(one.name);
     const nlohmann::json base = summary(one, "base"), other = summary(one, isa);
     EXPECT_EQ(base.at("isa"), "base");
-    if (other.at("isa") != isa) GTEST_SKIP() << "this build has no kernels for x86-64-" << isa;
+    EXPECT_EQ(other.at("isa"), isa);
     EXPECT_EQ(base.at("state_hash"), other.at("state_hash"));
     EXPECT_EQ(base.at("energy"), other.at("energy"));
     EXPECT_EQ(base.at("rings"), other.at("rings"));

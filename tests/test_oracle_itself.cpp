@@ -669,4 +669,34 @@ TEST(Oracle, BallTouchesWhatExists) {
   EXPECT_EQ(closed.result().contacts_seen, 3);  // both elements of the closing thread too
 }
 
+// A closing element between two nodes that are there already lies across the ball, and yet not before its
+// time.
+TEST(Oracle, ElementsOfTheClosingTouchNothingBeforeIt) {
+  Tiny tiny;
+  tiny.node({0, -0.05, 0});
+  tiny.node({0, 0, 0});
+  tiny.node({0.02, 0, 0});
+  tiny.element(0, 1);
+  tiny.assembly.balls.push_back({"ball", Vec3(0.01, 0, 0), 0.0095, 1e-8, {0}, {}});
+  const Evaluation alone = tiny.evaluated();
+  ASSERT_EQ(alone.contacts, 1);
+  const Assembly before = tiny.assembly;
+  tiny.element(1, 2);
+  tiny.node(Vec3::Constant(7));
+  tiny.element(2, 3);
+  tiny.assembly.nodes_before = before.nodes_before;
+  tiny.assembly.elements_before = before.elements_before;
+  tiny.assembly.lays = {{3, 0, 1, 0.5, Vec3::Zero(), Vec3::Zero()}};
+  tiny.scene.closing.time = 1;
+  Field x = tiny.positions(), v = tiny.velocities();
+  x.resize(3), v.resize(3);
+  const Evaluation waiting = tiny.started().evaluate(x, v);
+  EXPECT_EQ(waiting.contacts, 1);
+  EXPECT_NEAR((waiting.force[1] - alone.force[1]).norm(), 0, 1e-12);
+  tiny.scene.closing.time = 0;
+  Oracle closed = tiny.started();
+  closed.step();
+  EXPECT_EQ(closed.result().contacts_seen, 3);  // and the closing thread's own element, laid across it
+}
+
 }  // namespace

@@ -159,6 +159,7 @@ void CaseBuilder::check_run() {
   };
   const TimeSpec& time = scene_.time;
   const OutputSpec& output = scene_.output;
+  if (!(time.end > 0)) return;  // refused already
   const std::string end = "time.end_s = " + toml_text(time.end);
   if (time.end / output.frame_interval > max_frames)
     fail(place("output", "frame_interval_s"),

@@ -4,14 +4,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
-#include <limits>
 
-#include "base/error.hpp"
-#include "base/version.hpp"
+#include "plan/health.hpp"
 #include "plan/probes.hpp"
 #include "statics/equilibrium.hpp"
-#include "store/fields.hpp"
 
 namespace cinch {
 namespace {
@@ -163,55 +159,8 @@ void Simulation::advance_to(std::int64_t target) {
 
 void Simulation::check_health() {
   if (!scene_.time.allow_unstable)
-    check_contacts();  // first: an impact too hard is what makes a node run away
-  if (!stepper_->healthy()) report_runaway();
-}
-
-// A contact that needs more than the elements leave of the stable step would grow without bound.
-void Simulation::check_contacts() const {
-  const auto check = [&](const char* kind, const std::string& name, const auto& tally) {
-    if (!(tally.stiffest > 1)) return;
-    const Index stiffest = tally.stiffest_element;
-    const std::string what = stiffest < 0
-                                 ? node_label(preparation_.assembly, kernel::sphere_label(stiffest))
-                                 : element_label(preparation_.assembly, model().user_element[at(stiffest)]);
-    char text[500];
-    std::snprintf(
-        text, sizeof text,
-        "error: at t = %.9g s the contact of %s with %s '%s' needed %.3g times what the stable step leaves; "
-        "likely cause: an impact too hard for the time step %.3g s (or an overlap at the start); a step of "
-        "%.2g s would carry it",
-        tally.stiffest_time, what.c_str(), kind, name.c_str(), tally.stiffest, preparation_.dt,
-        preparation_.dt / tally.stiffest * 0.9);
-    throw NumericalError(text);
-  };
-  for (std::size_t r = 0; r < state_.rings.size(); ++r)
-    check("ring", preparation_.assembly.rings[r].name, state_.rings[r]);
-  for (std::size_t b = 0; b < state_.balls.size(); ++b)
-    for (const kernel::BallTally& tally : state_.balls[b])
-      check("target", preparation_.assembly.balls[b].name, tally);
-}
-
-// Names the first node without a finite speed, else the fastest.
-void Simulation::report_runaway() const {
-  Index worst = 0;
-  double fastest = -1;
-  for (Index i = 0; i < model().nodes && std::isfinite(fastest); ++i) {
-    const double speed = std::hypot(state_.vx[at(i)], state_.vy[at(i)], state_.vz[at(i)]);
-    if (!(speed <= fastest)) {
-      worst = i;
-      fastest = speed;
-    }
-  }
-  char text[600];
-  std::snprintf(text, sizeof text,
-                "error: at t = %.9g s %s at (%.6g, %.6g, %.6g) m moves at %.3g m/s (time.speed_limit_m_s = "
-                "%.3g); likely "
-                "cause: the time step %.3g s is too large (stable step %.3g s, limited by %s)",
-                time(), node_label(preparation_.assembly, worst).c_str(), state_.x[at(worst)],
-                state_.y[at(worst)], state_.z[at(worst)], fastest, scene_.time.speed_limit, preparation_.dt,
-                preparation_.stable_step, preparation_.limited_by.c_str());
-  throw NumericalError(text);
+    check_contacts(preparation_, model(), state_);  // first: an impact too hard is what makes a node run away
+  if (!stepper_->healthy()) report_runaway(preparation_, model(), state_, scene_.time.speed_limit);
 }
 
 namespace {
@@ -275,105 +224,6 @@ void Simulation::note_events(const Frame& now) {
         enclosed_[b] = true;
         events_.push_back({now.time, "target_enclosed", preparation_.assembly.balls[b].name});
       }
-}
-
-ResultModel Simulation::result_model() const {
-  const Assembly& assembly = preparation_.assembly;
-  ResultModel m;
-  m.case_name = scene_.name;
-  m.title = scene_.title;
-  m.about = scene_.about;
-  m.case_toml = scene_.resolved_toml;
-  m.version = cinch::version;
-  m.commit = cinch::commit;
-  m.compiler = cinch::compiler;
-  m.isa = kernels().isa;
-  m.threads = threads_;
-  m.time_step = preparation_.dt;
-  for (const AssemblyElement& e : assembly.elements) {
-    m.elements.push_back({e.a, e.b});
-    m.rest_length.push_back(e.rest_length);
-    m.element_radius.push_back(e.radius);
-    m.element_part.push_back(e.part);
-  }
-  for (const AssemblyNode& node : assembly.nodes) m.node_mass.push_back(node.mass);
-  for (const Part& part : assembly.parts) m.parts.push_back({kind_name(part.kind), part.name, part.closing});
-  for (const AssemblyRing& ring : assembly.rings)
-    m.rings.push_back({ring.name, ring.radius, ring.wire_radius});
-  for (const AssemblyBall& ball : assembly.balls) m.balls.push_back({ball.name, ball.center, ball.radius});
-  for (const NamedNode& named : assembly.named) m.masses.push_back({named.name, named.node, named.mass});
-  if (preparation_.closing_step >= 0)
-    m.closing_time = static_cast<double>(preparation_.closing_step) * preparation_.dt;
-  m.probes = probe_columns_;
-  return m;
-}
-
-std::vector<Event> Simulation::all_events() const {
-  std::vector<Event> events = events_;
-  for (std::size_t r = 0; r < state_.rings.size(); ++r)
-    if (state_.rings[r].state > 0)
-      events.push_back({state_.rings[r].first_time, "ring_contact", preparation_.assembly.rings[r].name});
-  for (std::size_t b = 0; b < state_.balls.size(); ++b) {
-    double first = -1;
-    for (const kernel::BallTally& tally : state_.balls[b])
-      if (tally.first_time >= 0 && (first < 0 || tally.first_time < first)) first = tally.first_time;
-    if (first >= 0) events.push_back({first, "target_contact", preparation_.assembly.balls[b].name});
-  }
-  std::stable_sort(events.begin(), events.end(),
-                   [](const Event& l, const Event& r) { return l.time < r.time; });
-  return events;
-}
-
-Summary Simulation::summary() {
-  const Assembly& assembly = preparation_.assembly;
-  Summary s;
-  s.case_name = scene_.name;
-  s.version = cinch::version;
-  s.commit = cinch::commit;
-  s.compiler = cinch::compiler;
-  s.isa = kernels().isa;
-  s.threads = threads_;
-  s.steps = state_.step;
-  s.time_step = preparation_.dt;
-  s.simulated_seconds = time();
-  s.nodes = static_cast<Index>(assembly.nodes.size());
-  s.elements = static_cast<Index>(assembly.elements.size());
-  s.rings = static_cast<Index>(assembly.rings.size());
-  s.stable_step = preparation_.stable_step;
-  s.stable_step_limited_by = preparation_.limited_by;
-  s.state_hash = state_hash(state_);
-  s.energy = ledger_.energies(observe(*stepper_, state_));
-  s.energy_initial = ledger_.initial();
-  if (!scene_.output.ledger) s.energy.residual = std::numeric_limits<double>::quiet_NaN();  // books not kept
-  s.relative_residual = ledger_.scale() > 0 ? std::abs(s.energy.residual) / ledger_.scale() : 0;
-  if (s.relative_residual > residual_limit)
-    s.warnings.push_back(
-        "energy is not conserved (residual above 1 %); a smaller time.step_s or more damping may help");
-  const Momentum drift = ledger_.drift(model(), state_, time());
-  s.linear_momentum_drift = drift.linear.norm();
-  if (!model().has_gravity) s.angular_momentum_drift = drift.angular.norm();
-  for (const kernel::RingTally& ring : state_.rings)
-    s.max_penetration = std::max(s.max_penetration, ring.max_penetration);
-  for (const auto& ball : state_.balls)
-    for (const kernel::BallTally& tally : ball)
-      s.max_penetration = std::max(s.max_penetration, tally.max_penetration);
-  for (std::size_t stage = 0; stage < stage_count; ++stage)
-    s.stages.push_back(
-        {stage_name(static_cast<StageId>(stage)), seconds_[stage] + stepper_->seconds()[stage]});
-  s.events = all_events();
-  for (std::size_t r = 0; r < assembly.rings.size(); ++r) {
-    RingRecord record;
-    record.name = assembly.rings[r].name;
-    if (r < state_.rings.size()) {
-      const kernel::RingTally& tally = state_.rings[r];
-      record.first_contact_time = tally.first_time;
-      record.first_contact_force = tally.first_peak;
-      record.peak_force = tally.peak_force;
-      record.peak_time = tally.peak_time;
-    }
-    s.ring_records.push_back(record);
-  }
-  return s;
 }
 
 }  // namespace cinch

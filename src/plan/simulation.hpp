@@ -50,8 +50,6 @@ class Simulation {
   void enter_phase(std::size_t phase);
   void close();
   void check_health();
-  void check_contacts() const;
-  [[noreturn]] void report_runaway() const;
   std::vector<Event> all_events() const;
 
   Scene scene_;
@@ -71,8 +69,8 @@ class Simulation {
   std::vector<Event> events_;  ///< those noted here; contacts are kept in the tallies
 };
 
-/// Threads that pay for a scene of this size: one for each 8000 elements or so, as below that two meetings a step cost
-/// more than they save (bench/bench_growth.cpp measures both sides on a given machine).
+/// Threads that pay for a scene of this size: one for each 8000 elements or so, as below that two meetings a
+/// step cost more than they save (bench/bench_growth.cpp measures both sides on a given machine).
 int choose_threads(Index elements, int available);
 
 }  // namespace cinch

@@ -17,7 +17,7 @@ namespace cinch {
 
 struct EquilibriumOptions {
   double tolerance = 1e-10;   ///< largest nodal residual over the weight of the movable nodes, -
-  int max_iterations = 2000;  ///< factorisations in all; usual nets need 20 to 60
+  int max_iterations = 2000;  ///< factorisations in all
 };
 
 struct EquilibriumResult {

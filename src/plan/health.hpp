@@ -1,0 +1,16 @@
+// What a run that goes wrong says: the contact, element or node at fault, the time, the likely cause.
+#pragma once
+#include "plan/preparation.hpp"
+#include "store/state.hpp"
+
+namespace cinch {
+
+/// Throws NumericalError when a contact has needed more than the elements leave of the stable step: it would
+/// grow without bound.
+void check_contacts(const Preparation& preparation, const Model& model, const State& state);
+
+/// Throws NumericalError that names the first node without a finite speed, else the fastest.
+[[noreturn]] void report_runaway(const Preparation& preparation, const Model& model, const State& state,
+                                 double speed_limit);
+
+}  // namespace cinch

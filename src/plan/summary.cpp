@@ -1,0 +1,116 @@
+// What a simulation reports of itself apart from its frames: its model, events and summary.
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "base/version.hpp"
+#include "plan/simulation.hpp"
+#include "store/fields.hpp"
+
+namespace cinch {
+namespace {
+
+constexpr std::size_t at(Index i) { return static_cast<std::size_t>(i); }
+
+}  // namespace
+
+ResultModel Simulation::result_model() const {
+  const Assembly& assembly = preparation_.assembly;
+  ResultModel m;
+  m.case_name = scene_.name;
+  m.title = scene_.title;
+  m.about = scene_.about;
+  m.case_toml = scene_.resolved_toml;
+  m.version = cinch::version;
+  m.commit = cinch::commit;
+  m.compiler = cinch::compiler;
+  m.isa = kernels().isa;
+  m.threads = threads_;
+  m.time_step = preparation_.dt;
+  for (const AssemblyElement& e : assembly.elements) {
+    m.elements.push_back({e.a, e.b});
+    m.rest_length.push_back(e.rest_length);
+    m.element_radius.push_back(e.radius);
+    m.element_part.push_back(e.part);
+  }
+  for (const AssemblyNode& node : assembly.nodes) m.node_mass.push_back(node.mass);
+  for (const Part& part : assembly.parts) m.parts.push_back({kind_name(part.kind), part.name, part.closing});
+  for (const AssemblyRing& ring : assembly.rings)
+    m.rings.push_back({ring.name, ring.radius, ring.wire_radius});
+  for (const AssemblyBall& ball : assembly.balls) m.balls.push_back({ball.name, ball.center, ball.radius});
+  for (const NamedNode& named : assembly.named) m.masses.push_back({named.name, named.node, named.mass});
+  if (preparation_.closing_step >= 0)
+    m.closing_time = static_cast<double>(preparation_.closing_step) * preparation_.dt;
+  m.probes = probe_columns_;
+  return m;
+}
+
+std::vector<Event> Simulation::all_events() const {
+  std::vector<Event> events = events_;
+  for (std::size_t r = 0; r < state_.rings.size(); ++r)
+    if (state_.rings[r].state > 0)
+      events.push_back({state_.rings[r].first_time, "ring_contact", preparation_.assembly.rings[r].name});
+  for (std::size_t b = 0; b < state_.balls.size(); ++b) {
+    double first = -1;
+    for (const kernel::BallTally& tally : state_.balls[b])
+      if (tally.first_time >= 0 && (first < 0 || tally.first_time < first)) first = tally.first_time;
+    if (first >= 0) events.push_back({first, "target_contact", preparation_.assembly.balls[b].name});
+  }
+  std::stable_sort(events.begin(), events.end(),
+                   [](const Event& l, const Event& r) { return l.time < r.time; });
+  return events;
+}
+
+Summary Simulation::summary() {
+  const Assembly& assembly = preparation_.assembly;
+  Summary s;
+  s.case_name = scene_.name;
+  s.version = cinch::version;
+  s.commit = cinch::commit;
+  s.compiler = cinch::compiler;
+  s.isa = kernels().isa;
+  s.threads = threads_;
+  s.steps = state_.step;
+  s.time_step = preparation_.dt;
+  s.simulated_seconds = time();
+  s.nodes = static_cast<Index>(assembly.nodes.size());
+  s.elements = static_cast<Index>(assembly.elements.size());
+  s.rings = static_cast<Index>(assembly.rings.size());
+  s.stable_step = preparation_.stable_step;
+  s.stable_step_limited_by = preparation_.limited_by;
+  s.state_hash = state_hash(state_);
+  s.energy = ledger_.energies(observe(*stepper_, state_));
+  s.energy_initial = ledger_.initial();
+  if (!scene_.output.ledger) s.energy.residual = std::numeric_limits<double>::quiet_NaN();  // books not kept
+  s.relative_residual = ledger_.scale() > 0 ? std::abs(s.energy.residual) / ledger_.scale() : 0;
+  if (s.relative_residual > residual_limit)
+    s.warnings.push_back(
+        "energy is not conserved (residual above 1 %); a smaller time.step_s or more damping may help");
+  const Momentum drift = ledger_.drift(model(), state_, time());
+  s.linear_momentum_drift = drift.linear.norm();
+  if (!model().has_gravity) s.angular_momentum_drift = drift.angular.norm();
+  for (const kernel::RingTally& ring : state_.rings)
+    s.max_penetration = std::max(s.max_penetration, ring.max_penetration);
+  for (const auto& ball : state_.balls)
+    for (const kernel::BallTally& tally : ball)
+      s.max_penetration = std::max(s.max_penetration, tally.max_penetration);
+  for (std::size_t stage = 0; stage < stage_count; ++stage)
+    s.stages.push_back(
+        {stage_name(static_cast<StageId>(stage)), seconds_[stage] + stepper_->seconds()[stage]});
+  s.events = all_events();
+  for (std::size_t r = 0; r < assembly.rings.size(); ++r) {
+    RingRecord record;
+    record.name = assembly.rings[r].name;
+    if (r < state_.rings.size()) {
+      const kernel::RingTally& tally = state_.rings[r];
+      record.first_contact_time = tally.first_time;
+      record.first_contact_force = tally.first_peak;
+      record.peak_force = tally.peak_force;
+      record.peak_time = tally.peak_time;
+    }
+    s.ring_records.push_back(record);
+  }
+  return s;
+}
+
+}  // namespace cinch
