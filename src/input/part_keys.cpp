@@ -197,7 +197,8 @@ const Section<Thread>& thread_section() {
             .range = from(0, 1e4),
             .fallback = "0",
             .only_with = "along",
-            .meaning = "Straight continuation before the first part.",
+            .meaning =
+                "Straight continuation before the first part, in the direction that this has at t = 0.",
             .source = "no overhang"},
            into(&Thread::overhang_start)},
           {{.name = "overhang_end_m",
@@ -205,7 +206,7 @@ const Section<Thread>& thread_section() {
             .range = from(0, 1e4),
             .fallback = "0",
             .only_with = "along",
-            .meaning = "Straight continuation behind the last part.",
+            .meaning = "Straight continuation behind the last part, in the direction that this has at t = 0.",
             .source = "no overhang"},
            into(&Thread::overhang_end)},
           {{.name = "length_m",
