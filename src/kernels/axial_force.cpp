@@ -22,12 +22,13 @@ inline void span_forces(const AxialArguments& g, const Span& span, double* __res
   double* __restrict fx = g.fx + span.element, * __restrict fy = g.fy + span.element, * __restrict fz = g.fz + span.element;
 #pragma omp simd
   for (Index i = 0; i < span.count; ++i) {
-    const V3 r{bx[i] - ax[i], by[i] - ay[i], bz[i] - az[i]};
-    const V3 v = damped ? V3{bu[i] - au[i], bv[i] - av[i], bw[i] - aw[i]} : V3{0, 0, 0};
-    const Axial item = axial_law(r, v, k[i], damped ? c[i] : 0.0, l0[i]);
-    fx[i] = item.per_length * r.x;
-    fy[i] = item.per_length * r.y;
-    fz[i] = item.per_length * r.z;
+    const double rx = bx[i] - ax[i], ry = by[i] - ay[i], rz = bz[i] - az[i];
+    const double rr = rx * rx + ry * ry + rz * rz;
+    const double rv = damped ? rx * (bu[i] - au[i]) + ry * (bv[i] - av[i]) + rz * (bw[i] - aw[i]) : 0.0;
+    const Axial item = axial_law(rr, rv, k[i], damped ? c[i] : 0.0, l0[i]);
+    fx[i] = item.per_length * rx;
+    fy[i] = item.per_length * ry;
+    fz[i] = item.per_length * rz;
     if (damped && ledger) power[i] = item.power;
   }
 }

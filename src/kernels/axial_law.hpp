@@ -13,13 +13,14 @@ struct Axial {
   double power;       ///< dissipated, W
 };
 
-/// One element from its ends' relative position r and velocity v.
-inline Axial axial_law(V3 r, V3 v, double k, double c, double l0) {
-  const double length = std::sqrt(dot(r, r));
+/// One element from r . r and r . v, r its ends' relative position and v their velocity. Takes and gives
+/// plain numbers, as loops over small structs are not vectorised by every compiler.
+inline Axial axial_law(double rr, double rv, double k, double c, double l0) {
+  const double length = std::sqrt(rr);
   const double stretch = length - l0;
   // a slack element may have length zero: divide by l0 then, the tension is zero anyway
   const double inverse = 1.0 / (stretch > 0 ? length : l0);
-  const double rate = dot(r, v) * inverse;
+  const double rate = rv * inverse;
   const double spring = k * stretch;
   const double pull = spring + c * rate;
   const double tension = stretch > 0 && pull > 0 ? pull : 0.0;

@@ -19,9 +19,10 @@ void observe_elements(const Model& model, const State& state, Observation& out, 
   for (Index e = 0; e < model.elements; ++e) {
     const Index a = model.end_a[at(e)], b = model.end_b[at(e)];
     const Vec3 r = position(state, b) - position(state, a);
+    const plain::V3 along = plain_vector(r), moving = plain_vector(velocity(state, b) - velocity(state, a));
     const plain::Axial item =
-        plain::axial_law(plain_vector(r), plain_vector(velocity(state, b) - velocity(state, a)),
-                         model.stiffness[at(e)], model.damping[at(e)], model.rest_length[at(e)]);
+        plain::axial_law(plain::dot(along, along), plain::dot(along, moving), model.stiffness[at(e)],
+                         model.damping[at(e)], model.rest_length[at(e)]);
     force[at(a)] += item.per_length * r;
     force[at(b)] -= item.per_length * r;
     const double stretch = r.norm() - model.rest_length[at(e)];
