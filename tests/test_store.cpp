@@ -184,10 +184,10 @@ TEST(ForceReduction, GatherEqualsScatter) {
     SCOPED_TRACE(s.name);
     const Topology topology = cut_runs(s.elements, s.nodes);
     std::vector<kernel::NodeBlock> blocks;
-    std::vector<kernel::GatherPiece> pieces;
+    ElementGather gather;
     std::vector<kernel::Constraint> constraints;
     for (Index node = 0; node < s.nodes; node += 3) constraints.push_back({node, 1, 0, 0});
-    cut_node_blocks(s.nodes, topology.runs, constraints, blocks, pieces);
+    cut_node_blocks(s.nodes, topology.runs, constraints, blocks, gather);
     const std::vector<double> force = random_forces(s.elements.size(), 11);
 
     std::vector<double> scattered(at(s.nodes)), gathered(at(s.nodes));
@@ -195,28 +195,36 @@ TEST(ForceReduction, GatherEqualsScatter) {
       scattered[at(s.elements[at(topology.user_element[e])][0])] += force[e];
       scattered[at(s.elements[at(topology.user_element[e])][1])] -= force[e];
     }
-    Index next_node = 0, next_constraint = 0, next_piece = 0;
+    Index next_node = 0, next_constraint = 0, next_stretch = 0, next_source = 0;
     for (const kernel::NodeBlock& block : blocks) {
       ASSERT_EQ(block.first, next_node);
-      ASSERT_EQ(block.piece_begin, next_piece);
+      ASSERT_EQ(block.stretch_begin, next_stretch);
       ASSERT_EQ(block.constraint_begin, next_constraint);
-      for (Index p = block.piece_begin; p < block.piece_end; ++p) {
-        const kernel::GatherPiece& piece = pieces[at(p)];
-        ASSERT_GE(piece.node, block.first);
-        ASSERT_LE(piece.node + piece.count, block.first + block.count) << "a piece writes its own block only";
-        for (Index k = 0; k < piece.count; ++k)
-          gathered[at(piece.node + k)] += piece.sign * force[at(piece.element + k)];
+      Index next = block.first;
+      for (Index p = block.stretch_begin; p < block.stretch_end; ++p) {
+        const kernel::GatherStretch& stretch = gather.stretches[at(p)];
+        ASSERT_EQ(stretch.node, next) << "every node of the block in one stretch";
+        ASSERT_GT(stretch.count, 0);
+        ASSERT_EQ(stretch.source_begin, next_source);
+        for (Index n = stretch.source_begin; n < stretch.source_end; ++n)
+          for (Index k = 0; k < stretch.count; ++k)
+            gathered[at(stretch.node + k)] +=
+                gather.sources[at(n)].sign * force[at(gather.sources[at(n)].element + k)];
+        next += stretch.count;
+        next_source = stretch.source_end;
       }
+      ASSERT_EQ(next, block.first + block.count);
       for (Index c = block.constraint_begin; c < block.constraint_end; ++c) {
         ASSERT_GE(constraints[at(c)].node, block.first);
         ASSERT_LT(constraints[at(c)].node, block.first + block.count);
       }
       next_node += block.count;
-      next_piece = block.piece_end;
+      next_stretch = block.stretch_end;
       next_constraint = block.constraint_end;
     }
     EXPECT_EQ(next_node, s.nodes);
-    EXPECT_EQ(next_piece, static_cast<Index>(pieces.size()));
+    EXPECT_EQ(next_stretch, static_cast<Index>(gather.stretches.size()));
+    EXPECT_EQ(next_source, static_cast<Index>(gather.sources.size()));
     EXPECT_EQ(next_constraint, static_cast<Index>(constraints.size()));
     EXPECT_EQ(gathered, scattered);
   }

@@ -29,10 +29,16 @@ struct AxialArguments {
   double dt;                               ///< s; 0 books nothing
 };
 
-/// Part of the gather: nodes node + k take sign times the force of elements element + k.
-struct GatherPiece {
-  Index node, element, count;
+/// One summand of a stretch: node + k takes sign times the force of element + k.
+struct GatherSource {
+  Index element;
   double sign;
+};
+
+/// Nodes [node, node + count) whose elements follow each other likewise: the sum of sources, in order.
+struct GatherStretch {
+  Index node, count;
+  Index source_begin, source_end;
 };
 
 /// A contact load that one node takes: force[slot].
@@ -54,7 +60,7 @@ struct Reaction {
 /// A block of nodes [first, first + count) with what it gathers.
 struct NodeBlock {
   Index first, count;
-  Index piece_begin, piece_end;
+  Index stretch_begin, stretch_end;
   Index constraint_begin, constraint_end;
 };
 
@@ -62,7 +68,8 @@ struct NodeArguments {
   double *x, *y, *z, *vx, *vy, *vz;   ///< node
   const double *mass, *inverse_mass;  ///< node, kg, 1/kg
   const double *fx, *fy, *fz;         ///< element: force on its end a, N
-  const GatherPiece* pieces;
+  const GatherStretch* stretches;
+  const GatherSource* sources;
   const double *load_x, *load_y, *load_z;  ///< slot: contact loads, N
   const LoadEntry* entries;
   const Index* entry_begin;  ///< node block + 1: its stretch of entries

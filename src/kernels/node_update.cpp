@@ -15,29 +15,62 @@ struct BlockForce {
   alignas(64) double x[kernel::block_size], y[kernel::block_size], z[kernel::block_size];
 };
 
-template <bool gravity>
-inline void begin_force(const NodeArguments& g, const NodeBlock& block, BlockForce& f) {
-  const double* __restrict m = g.mass + block.first;
+// Nodes of one stretch with `count` summands each, known when compiled: one pass, each force written once.
+template <bool gravity, int count>
+inline void sum_stretch(const NodeArguments& g, const kernel::GatherStretch& s, Index first, BlockForce& f) {
+  double* __restrict fx = f.x + (s.node - first), * __restrict fy = f.y + (s.node - first), * __restrict fz = f.z + (s.node - first);
+  const double* __restrict m = g.mass + s.node;
   const double gx = g.gravity[0], gy = g.gravity[1], gz = g.gravity[2];
+  const double *ex[count + 1], *ey[count + 1], *ez[count + 1];
+  double sign[count + 1];
+  for (int n = 0; n < count; ++n) {
+    const kernel::GatherSource& source = g.sources[s.source_begin + n];
+    ex[n] = g.fx + source.element;
+    ey[n] = g.fy + source.element;
+    ez[n] = g.fz + source.element;
+    sign[n] = source.sign;
+  }
 #pragma omp simd
-  for (Index i = 0; i < block.count; ++i) {
-    f.x[i] = gravity ? m[i] * gx : 0.0;
-    f.y[i] = gravity ? m[i] * gy : 0.0;
-    f.z[i] = gravity ? m[i] * gz : 0.0;
+  for (Index i = 0; i < s.count; ++i) {
+    double x = gravity ? m[i] * gx : 0.0, y = gravity ? m[i] * gy : 0.0, z = gravity ? m[i] * gz : 0.0;
+    for (int n = 0; n < count; ++n) {
+      x += sign[n] * ex[n][i];
+      y += sign[n] * ey[n][i];
+      z += sign[n] * ez[n][i];
+    }
+    fx[i] = x;
+    fy[i] = y;
+    fz[i] = z;
   }
 }
 
-inline void add_piece(const kernel::GatherPiece& p, const NodeBlock& block, const NodeArguments& g,
-                      BlockForce& f) {
-  double *__restrict fx = f.x + (p.node - block.first), *__restrict fy = f.y + (p.node - block.first),
-         *__restrict fz = f.z + (p.node - block.first);
-  const double* __restrict ex = g.fx + p.element, * __restrict ey = g.fy + p.element, * __restrict ez = g.fz + p.element;
-  const double sign = p.sign;
-#pragma omp simd
-  for (Index i = 0; i < p.count; ++i) {
-    fx[i] += sign * ex[i];
-    fy[i] += sign * ey[i];
-    fz[i] += sign * ez[i];
+// The summands from number `from` on, for the few nodes where more than four elements meet.
+inline void add_rest(const NodeArguments& g, const kernel::GatherStretch& s, Index from, Index first,
+                     BlockForce& f) {
+  for (Index n = s.source_begin + from; n < s.source_end; ++n) {
+    const auto [element, sign] = g.sources[n];
+    for (Index i = 0; i < s.count; ++i) {
+      f.x[s.node - first + i] += sign * g.fx[element + i];
+      f.y[s.node - first + i] += sign * g.fy[element + i];
+      f.z[s.node - first + i] += sign * g.fz[element + i];
+    }
+  }
+}
+
+template <bool gravity>
+inline void gather(const NodeArguments& g, const kernel::GatherStretch& s, Index first, BlockForce& f) {
+  switch (s.source_end - s.source_begin) {
+    case 0:
+      return sum_stretch<gravity, 0>(g, s, first, f);
+    case 1:
+      return sum_stretch<gravity, 1>(g, s, first, f);
+    case 2:
+      return sum_stretch<gravity, 2>(g, s, first, f);
+    case 3:
+      return sum_stretch<gravity, 3>(g, s, first, f);
+    default:
+      sum_stretch<gravity, 4>(g, s, first, f);
+      return add_rest(g, s, 4, first, f);
   }
 }
 
@@ -100,8 +133,8 @@ void update_nodes(const NodeArguments& g, const NodeBlock* blocks, Index begin, 
   BlockForce f;
   for (Index b = begin; b < end; ++b) {
     const NodeBlock& block = blocks[b];
-    begin_force<gravity>(g, block, f);
-    for (Index p = block.piece_begin; p < block.piece_end; ++p) add_piece(g.pieces[p], block, g, f);
+    for (Index s = block.stretch_begin; s < block.stretch_end; ++s)
+      gather<gravity>(g, g.stretches[s], block.first, f);
     add_loads(g, g.entry_begin[b], g.entry_begin[b + 1], block.first, f);
     constrain(g, block, f);
     watch[b] = move(g, block, f);

@@ -10,11 +10,17 @@
 
 namespace cinch {
 
-/// Cuts the nodes into blocks and lists, block by block, the stretches of element forces that each gathers.
+/// What each node adds up: every node lies in one stretch, stretches and their sources rise without gaps.
+struct ElementGather {
+  std::vector<kernel::GatherStretch> stretches;
+  std::vector<kernel::GatherSource> sources;
+};
+
+/// Cuts the nodes into blocks and lists, block by block, the stretches of nodes and what they gather.
 /// `constraints` must be in ascending node order.
 void cut_node_blocks(Index nodes, const std::vector<kernel::Span>& runs,
                      const std::vector<kernel::Constraint>& constraints,
-                     std::vector<kernel::NodeBlock>& blocks, std::vector<kernel::GatherPiece>& pieces);
+                     std::vector<kernel::NodeBlock>& blocks, ElementGather& gather);
 
 /// The contact loads of each node block, by node and then by slot.
 struct LoadGather {

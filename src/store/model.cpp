@@ -136,7 +136,7 @@ Model build_model(const Assembly& assembly, const Scene& scene, Stage stage) {
   fill_nodes(model, assembly, stage);
   const std::vector<kernel::Span> runs = fill_elements(model, assembly, stage);
   cut_element_blocks(runs, model.spans, model.element_blocks);
-  cut_node_blocks(model.nodes, runs, model.constraints, model.node_blocks, model.pieces);
+  cut_node_blocks(model.nodes, runs, model.constraints, model.node_blocks, model.gather);
   const bool count_once = scene.contact.shared_node == SharedNode::once;
   fill_rings(model, assembly, count_once);
   fill_balls(model, assembly, count_once);

@@ -7,6 +7,7 @@
 #include "base/aligned.hpp"
 #include "kernels/arguments.hpp"
 #include "scene/assembly.hpp"
+#include "store/force_reduction.hpp"
 
 namespace cinch {
 
@@ -40,7 +41,7 @@ struct Model {
   std::vector<kernel::Span> spans;
   std::vector<kernel::ElementBlock> element_blocks;
   std::vector<kernel::NodeBlock> node_blocks;
-  std::vector<kernel::GatherPiece> pieces;
+  ElementGather gather;
   std::vector<kernel::Constraint> constraints;
 
   // contact
