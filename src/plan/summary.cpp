@@ -8,12 +8,6 @@
 #include "store/fields.hpp"
 
 namespace cinch {
-namespace {
-
-constexpr std::size_t at(Index i) { return static_cast<std::size_t>(i); }
-
-}  // namespace
-
 ResultModel Simulation::result_model() const {
   const Assembly& assembly = preparation_.assembly;
   ResultModel m;
