@@ -42,7 +42,7 @@ __attribute__((target_clones("avx512f", "avx2", "default")))
 void bare_step(Index n, double* __restrict x, double* __restrict y, double* __restrict z, double* __restrict u,
                double* __restrict v, double* __restrict w, double* __restrict fx, double* __restrict fy,
                double* __restrict fz) {
-  constexpr double k = 6.28e5, c = 0.26, l0 = 0.005, dt = 1e-6, scale = dt / 1.5e-5;
+  constexpr double k = 6.28e5, c = 0.655, l0 = 0.005, dt = 1e-6, scale = dt / 1.5e-5;
 #pragma omp simd
   for (Index i = 0; i < n; ++i) {
     const double rx = x[i + 1] - x[i], ry = y[i + 1] - y[i], rz = z[i + 1] - z[i];

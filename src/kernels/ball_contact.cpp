@@ -1,6 +1,6 @@
 // Contact of thread elements with a fixed ball: the law of eqs. (6)-(9) between the element's closest point P
 // and the ball's surface, penetration delta = R + r_A - |P - C|. Shared nodes are counted once as in
-// ring_contact.cpp.
+// ring_contact.cpp. A mass as a sphere is an element without length (a == b).
 #include "kernels/contact_item.hpp"
 #include "kernels/kernel_table.hpp"
 
