@@ -1,4 +1,4 @@
-// The broadphase against brute force: no candidate too few, none too many, and a list that stays good for as
+// The broadphase against brute force: no pair too few, none too many, and a list that stays good for as
 // long as it is used.
 #include <gtest/gtest.h>
 
@@ -73,20 +73,19 @@ double thickest(const Assembly& assembly, const std::vector<Index>& parts) {
   return most;
 }
 
-// The candidates [begin, end) must be all allowed elements within `reach` of `center`, in ascending store
-// order.
+// The pairs [begin, end) must be all allowed elements within `reach` of `center`, in ascending order.
 void expect_all_within(const Built& b, const ContactList& list, Index begin, Index end,
                        const std::vector<Index>& parts, const Vec3& center, double reach) {
   std::vector<char> listed(at(b.model.elements));
   for (Index i = begin; i < end; ++i) {
-    const kernel::Candidate& c = list.candidates[at(i)];
-    ASSERT_TRUE(i == begin || list.candidates[at(i) - 1].element < c.element);
+    const kernel::Pair& c = list.pairs[at(i)];
+    ASSERT_TRUE(i == begin || list.pairs[at(i) - 1].element < c.element);
     ASSERT_EQ(c.a, b.model.end_a[at(c.element)]);
     ASSERT_EQ(c.b, b.model.end_b[at(c.element)]);
     listed[at(c.element)] = 1;
   }
   for (Index e = 0; e < b.model.elements; ++e) {
-    const double distance = allowed(b.assembly, parts, b.model.user_element[at(e)])
+    const double distance = allowed(b.assembly, parts, e)
                                 ? distance_to_segment(place(b.state, b.model.end_a[at(e)]),
                                                       place(b.state, b.model.end_b[at(e)]), center)
                                 : 1e300;
@@ -96,14 +95,14 @@ void expect_all_within(const Built& b, const ContactList& list, Index begin, Ind
   }
 }
 
-// Checks the whole list; returns the number of candidates.
+// Checks the whole list; returns the number of pairs.
 std::size_t expect_as_brute_force(Built& b, double margin) {
   ContactList list(b.model, margin);
   list.rebuild(b.model, b.state);
   EXPECT_EQ(list.ring_begin.size(), b.model.rings.size() + 1);
   EXPECT_EQ(list.ball_begin.size(), b.model.balls.size() + 1);
   EXPECT_EQ(list.ring_begin.back(), list.ball_begin.front());
-  EXPECT_EQ(list.ball_begin.back(), static_cast<Index>(list.candidates.size()));
+  EXPECT_EQ(list.ball_begin.back(), static_cast<Index>(list.pairs.size()));
   for (std::size_t r = 0; r < b.assembly.rings.size(); ++r) {
     const AssemblyRing& ring = b.assembly.rings[r];
     const Vec3 center = ring.element < 0
@@ -120,7 +119,7 @@ std::size_t expect_as_brute_force(Built& b, double margin) {
                       ball.radius + thickest(b.assembly, ball.parts) + list.margin());
     if (testing::Test::HasFatalFailure()) return 0;
   }
-  return list.candidates.size();
+  return list.pairs.size();
 }
 
 // Moves every node by up to `shift` m after a shrink of the scene about `center`.
@@ -135,7 +134,7 @@ void scatter(Built& b, double factor, const Vec3& center, double shift, unsigned
   }
 }
 
-TEST(Broadphase, CandidatesAreThoseOfBruteForce) {
+TEST(Broadphase, PairsAreThoseOfBruteForce) {
   for (const char* name : {"ring_pull", "edge_closure", "capture"}) {
     SCOPED_TRACE(name);
     Built b(read(name, name == std::string("capture") ? Sets{{"net.main.stowed_factor", "1"}} : Sets{}));
@@ -193,17 +192,16 @@ void look(Simulation& simulation, Watched& seen) {
   const ContactList& list = simulation.stepper().contacts();
   const auto listed = [&](Index begin, Index end, Index element) {
     for (Index i = begin; i < end; ++i)
-      if (list.candidates[at(i)].element == element) return true;
+      if (list.pairs[at(i)].element == element) return true;
     return false;
   };
   ++seen.looks;
   for (Index e = 0; e < model.elements; ++e) {
-    const Index user = model.user_element[at(e)];
-    const AssemblyElement& element = assembly.elements[at(user)];
+    const AssemblyElement& element = assembly.elements[at(e)];
     const Vec3 a = place(state, element.a), b = place(state, element.b);
     for (std::size_t r = 0; r < assembly.rings.size(); ++r) {
       const AssemblyRing& ring = assembly.rings[r];
-      if (!allowed(assembly, ring.parts, user)) continue;
+      if (!allowed(assembly, ring.parts, e)) continue;
       const AssemblyElement& host = assembly.elements[at(ring.element)];
       const Vec3 h_a = place(state, host.a), h_b = place(state, host.b), center = 0.5 * (h_a + h_b);
       const double touch = element.radius + ring.wire_radius;
@@ -217,7 +215,7 @@ void look(Simulation& simulation, Watched& seen) {
     }
     for (std::size_t i = 0; i < assembly.balls.size(); ++i) {
       const AssemblyBall& ball = assembly.balls[i];
-      if (!allowed(assembly, ball.parts, user)) continue;
+      if (!allowed(assembly, ball.parts, e)) continue;
       if (distance_to_segment(a, b, ball.center) >= element.radius + ball.radius) continue;
       ++seen.pairs_in_contact;
       ASSERT_TRUE(listed(list.ball_begin[i], list.ball_begin[i + 1], e)) << "ball " << i << ", element " << e;

@@ -174,8 +174,7 @@ Model random_graph(Dice& dice, bool damped) {
   model.nodes = 2 + dice.index(10);
   for (Index i = 0; i < model.nodes; ++i) {
     model.mass.push_back(dice.log_uniform(1e-3, 1));
-    model.inverse_mass.push_back(1 / model.mass.back());
-    if (i > 0 && dice.uniform(0, 1) < 0.15) model.constraints.push_back({i, 0, 0, 0});
+    if (i > 0 && dice.uniform(0, 1) < 0.15) model.constraints.push_back({i, 0, 0, 0, model.mass.back()});
   }
   const auto k = [&] { return dice.log_uniform(1, 1e3); };
   const auto c = [&] { return damped ? dice.log_uniform(1e-3, 3) : 0.0; };

@@ -1,5 +1,5 @@
-// The store: elements cut into runs and blocks, forces gathered to nodes, masses lumped at nodes; and what is
-// measured on the net's shape, the mouth.
+// The store: masses lumped at nodes, models of both phases; and what is measured on the net's shape, the
+// mouth.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -14,29 +14,17 @@
 #include "input/case_reader.hpp"
 #include "scene/mouth.hpp"
 #include "scene/net_pattern.hpp"
-#include "store/force_reduction.hpp"
 #include "store/model.hpp"
-#include "store/topology.hpp"
 
 namespace {
 
 using namespace cinch;
-using Graph = std::vector<std::array<Index, 2>>;
 
 constexpr std::size_t at(Index i) { return static_cast<std::size_t>(i); }
 
 Scene read(const std::string& name, const std::vector<Override>& sets = {}) {
   return read_case(std::string(CINCH_SOURCE_DIR) + "/cases/" + name + ".toml", sets);
 }
-
-// ----------------------------------------------------------------------------------------------------
-// Graphs
-
-struct Sample {
-  std::string name;
-  Graph elements;
-  Index nodes;
-};
 
 Net net_of(int columns, int rows, int sub) {
   Net net;
@@ -45,225 +33,6 @@ Net net_of(int columns, int rows, int sub) {
   net.height = 0.1 * rows;
   net.elements_per_side = sub;
   return net;
-}
-
-Sample net_sample(int columns, int rows, int sub) {
-  const NetPattern pattern(net_of(columns, rows, sub));
-  return {"net " + std::to_string(columns) + "x" + std::to_string(rows) + "x" + std::to_string(sub),
-          pattern.elements(), pattern.nodes()};
-}
-
-Sample thread_sample(Index elements) {
-  Sample s{"thread " + std::to_string(elements), {}, elements + 1};
-  for (Index e = 0; e < elements; ++e) s.elements.push_back({e, e + 1});
-  return s;
-}
-
-Sample shuffled(Sample s, unsigned seed) {
-  std::mt19937 random(seed);
-  std::shuffle(s.elements.begin(), s.elements.end(), random);
-  for (auto& e : s.elements)
-    if (random() % 2 == 0) std::swap(e[0], e[1]);
-  s.name += " shuffled";
-  return s;
-}
-
-Sample random_graph(Index nodes, Index elements, unsigned seed) {
-  std::mt19937 random(seed);
-  std::uniform_int_distribution<Index> node(0, nodes - 1);
-  Sample s{"random " + std::to_string(seed), {}, nodes};
-  while (static_cast<Index>(s.elements.size()) < elements) {
-    const Index a = node(random), b = node(random);
-    if (a != b) s.elements.push_back({a, b});  // pairs may repeat
-  }
-  return s;
-}
-
-std::vector<Sample> samples() {
-  std::vector<Sample> list;
-  for (int sub = 1; sub <= 3; ++sub)
-    for (const auto& [columns, rows] : {std::pair{1, 1}, {4, 3}, {10, 10}, {37, 12}}) {
-      list.push_back(net_sample(columns, rows, sub));
-      list.push_back(shuffled(list.back(), 7));
-    }
-  for (const Index n : {1, 2, 255, 256, 257, 1000}) {
-    list.push_back(thread_sample(n));
-    list.push_back(shuffled(list.back(), 3));
-  }
-  for (unsigned seed = 1; seed < 9; ++seed)
-    list.push_back(random_graph(50 * static_cast<Index>(seed), 200 * static_cast<Index>(seed), seed));
-  list.push_back({"empty", {}, 5});
-  return list;
-}
-
-// ----------------------------------------------------------------------------------------------------
-// Runs and blocks
-
-TEST(Runs, CoverEveryElementOnceWithItsEnds) {
-  for (const Sample& s : samples()) {
-    SCOPED_TRACE(s.name);
-    const Topology topology = cut_runs(s.elements, s.nodes);
-    std::vector<Index> sorted = topology.user_element, all(s.elements.size());
-    std::sort(sorted.begin(), sorted.end());
-    std::iota(all.begin(), all.end(), 0);
-    ASSERT_EQ(sorted, all) << "a permutation of the user's numbers";
-    Index next = 0;
-    for (const kernel::Span& run : topology.runs) {
-      ASSERT_EQ(run.element, next);
-      ASSERT_GT(run.count, 0);
-      for (Index k = 0; k < run.count; ++k) {
-        const std::array<Index, 2> ends{run.a + k, run.b + k};
-        ASSERT_EQ(s.elements[at(topology.user_element[at(run.element + k)])], ends);
-      }
-      next += run.count;
-    }
-    EXPECT_EQ(next, static_cast<Index>(s.elements.size()));
-  }
-}
-
-TEST(Runs, FollowThreadsAndRowsOfNets) {
-  EXPECT_EQ(cut_runs(thread_sample(1000).elements, 1001).runs.size(), 1u);
-  const Sample two{"two threads", {{0, 1}, {1, 2}, {3, 4}, {4, 5}}, 6};
-  EXPECT_EQ(cut_runs(two.elements, two.nodes).runs.size(), 2u);
-  // a row of mesh sides, and the verticals above a row of knots, are one run for each of their sub-elements
-  // at most
-  for (int sub = 1; sub <= 3; ++sub) {
-    const Sample net = net_sample(40, 20, sub);
-    EXPECT_LE(cut_runs(net.elements, net.nodes).runs.size(), at(sub * (21 + 20)));
-  }
-}
-
-TEST(Blocks, HoldTheRunsInOrder) {
-  for (const Sample& s : samples()) {
-    SCOPED_TRACE(s.name);
-    const Topology topology = cut_runs(s.elements, s.nodes);
-    std::vector<kernel::Span> spans;
-    std::vector<kernel::ElementBlock> blocks;
-    cut_element_blocks(topology.runs, spans, blocks);
-    Index next_span = 0, next_element = 0;
-    for (std::size_t b = 0; b < blocks.size(); ++b) {
-      ASSERT_EQ(blocks[b].span_begin, next_span);
-      Index in_block = 0;
-      for (Index i = blocks[b].span_begin; i < blocks[b].span_end; ++i) {
-        const kernel::Span& span = spans[at(i)];
-        ASSERT_EQ(span.element, next_element);
-        for (Index k = 0; k < span.count; ++k) {
-          const auto& ends = s.elements[at(topology.user_element[at(span.element + k)])];
-          ASSERT_EQ(span.a + k, ends[0]);
-          ASSERT_EQ(span.b + k, ends[1]);
-        }
-        next_element += span.count;
-        in_block += span.count;
-      }
-      next_span = blocks[b].span_end;
-      if (b + 1 < blocks.size()) {
-        EXPECT_EQ(in_block, kernel::block_size);
-      } else {
-        EXPECT_LE(in_block, kernel::block_size);
-      }
-    }
-    EXPECT_EQ(next_span, static_cast<Index>(spans.size()));
-    EXPECT_EQ(next_element, static_cast<Index>(s.elements.size()));
-  }
-}
-
-// ----------------------------------------------------------------------------------------------------
-// The force reduction
-
-// Whole numbers, so that sums are exact in any order.
-std::vector<double> random_forces(std::size_t count, unsigned seed) {
-  std::mt19937 random(seed);
-  std::uniform_int_distribution<int> force(-1000, 1000);
-  std::vector<double> list(count);
-  for (double& f : list) f = force(random);
-  return list;
-}
-
-TEST(ForceReduction, GatherEqualsScatter) {
-  for (const Sample& s : samples()) {
-    SCOPED_TRACE(s.name);
-    const Topology topology = cut_runs(s.elements, s.nodes);
-    std::vector<kernel::NodeBlock> blocks;
-    ElementGather gather;
-    std::vector<kernel::Constraint> constraints;
-    for (Index node = 0; node < s.nodes; node += 3) constraints.push_back({node, 1, 0, 0});
-    cut_node_blocks(s.nodes, topology.runs, constraints, blocks, gather);
-    const std::vector<double> force = random_forces(s.elements.size(), 11);
-
-    std::vector<double> scattered(at(s.nodes)), gathered(at(s.nodes));
-    for (std::size_t e = 0; e < s.elements.size(); ++e) {
-      scattered[at(s.elements[at(topology.user_element[e])][0])] += force[e];
-      scattered[at(s.elements[at(topology.user_element[e])][1])] -= force[e];
-    }
-    Index next_node = 0, next_constraint = 0, next_stretch = 0, next_source = 0;
-    for (const kernel::NodeBlock& block : blocks) {
-      ASSERT_EQ(block.first, next_node);
-      ASSERT_EQ(block.stretch_begin, next_stretch);
-      ASSERT_EQ(block.constraint_begin, next_constraint);
-      Index next = block.first;
-      for (Index p = block.stretch_begin; p < block.stretch_end; ++p) {
-        const kernel::GatherStretch& stretch = gather.stretches[at(p)];
-        ASSERT_EQ(stretch.node, next) << "every node of the block in one stretch";
-        ASSERT_GT(stretch.count, 0);
-        ASSERT_EQ(stretch.source_begin, next_source);
-        for (Index n = stretch.source_begin; n < stretch.source_end; ++n)
-          for (Index k = 0; k < stretch.count; ++k)
-            gathered[at(stretch.node + k)] +=
-                gather.sources[at(n)].sign * force[at(gather.sources[at(n)].element + k)];
-        next += stretch.count;
-        next_source = stretch.source_end;
-      }
-      ASSERT_EQ(next, block.first + block.count);
-      for (Index c = block.constraint_begin; c < block.constraint_end; ++c) {
-        ASSERT_GE(constraints[at(c)].node, block.first);
-        ASSERT_LT(constraints[at(c)].node, block.first + block.count);
-      }
-      next_node += block.count;
-      next_stretch = block.stretch_end;
-      next_constraint = block.constraint_end;
-    }
-    EXPECT_EQ(next_node, s.nodes);
-    EXPECT_EQ(next_stretch, static_cast<Index>(gather.stretches.size()));
-    EXPECT_EQ(next_source, static_cast<Index>(gather.sources.size()));
-    EXPECT_EQ(next_constraint, static_cast<Index>(constraints.size()));
-    EXPECT_EQ(gathered, scattered);
-  }
-}
-
-TEST(ForceReduction, ContactLoadsReachTheirNodesInOrder) {
-  std::mt19937 random(5);
-  for (const Index nodes : {1, 256, 257, 2000}) {
-    SCOPED_TRACE(nodes);
-    const Index blocks = (nodes + kernel::block_size - 1) / kernel::block_size;
-    std::uniform_int_distribution<Index> any(0, nodes - 1);
-    std::vector<Index> node_of_slot(500);
-    for (Index& node : node_of_slot) node = any(random);
-    const std::vector<double> load = random_forces(node_of_slot.size(), 23);
-    LoadGather gather;
-    gather.rebuild({}, blocks);
-    EXPECT_TRUE(gather.entries.empty());
-    EXPECT_EQ(gather.begin, std::vector<Index>(at(blocks) + 1, 0));
-    gather.rebuild(node_of_slot, blocks);
-
-    ASSERT_EQ(gather.entries.size(), node_of_slot.size());
-    ASSERT_EQ(gather.begin.size(), at(blocks) + 1);
-    EXPECT_EQ(gather.begin.front(), 0);
-    EXPECT_EQ(gather.begin.back(), static_cast<Index>(node_of_slot.size()));
-    std::vector<double> scattered(at(nodes)), gathered(at(nodes));
-    for (std::size_t slot = 0; slot < load.size(); ++slot) scattered[at(node_of_slot[slot])] += load[slot];
-    for (Index b = 0; b < blocks; ++b)
-      for (Index i = gather.begin[at(b)]; i < gather.begin[at(b) + 1]; ++i) {
-        const kernel::LoadEntry& entry = gather.entries[at(i)];
-        ASSERT_EQ(entry.node / kernel::block_size, b);
-        ASSERT_EQ(entry.node, node_of_slot[at(entry.slot)]);
-        gathered[at(entry.node)] += load[at(entry.slot)];
-        if (i > gather.begin[at(b)]) {
-          const kernel::LoadEntry& last = gather.entries[at(i) - 1];
-          ASSERT_TRUE(last.node < entry.node || (last.node == entry.node && last.slot < entry.slot));
-        }
-      }
-    EXPECT_EQ(gathered, scattered);
-  }
 }
 
 // ----------------------------------------------------------------------------------------------------
@@ -382,7 +151,7 @@ TEST(Models, KeepEveryElementsNumbers) {
   const Assembly a = assemble(scene);
   const Model m = build_model(a, scene, Stage::closing);
   for (std::size_t e = 0; e < at(m.elements); ++e) {
-    const AssemblyElement& user = a.elements[at(m.user_element[e])];
+    const AssemblyElement& user = a.elements[e];
     ASSERT_EQ(m.end_a[e], user.a);
     ASSERT_EQ(m.end_b[e], user.b);
     ASSERT_EQ(m.stiffness[e], user.stiffness);
@@ -406,7 +175,11 @@ TEST(Models, ContactSetsLeaveOutRepeatedNodes) {
   EXPECT_TRUE(std::is_sorted(threads.elements.begin(), threads.elements.end()));
   for (std::size_t i = 0; i < threads.elements.size(); ++i) {
     const Index e = threads.elements[i];
-    const auto of = [&](Index node) { return a.node_of("mechanism.m1.a") <= node && node < 133 ? 0.0 : 0.5; };
+    const auto of = [&](Index node) {
+      for (const Lay& lay : a.lays)
+        if (lay.node == node && lay.jump != Vec3::Zero()) return 0.0;
+      return 0.5;
+    };
     ASSERT_EQ(threads.weight_a[i], of(m.end_a[at(e)]))
         << "a split mass ends one thread, inside two elements meet";
     ASSERT_EQ(threads.weight_b[i], of(m.end_b[at(e)]));

@@ -1,19 +1,29 @@
-// Vectors whose data begin on a cache line (and a full AVX-512 register).
+// Vectors for kernels: their data begin on a cache line (and a full AVX-512 register), and behind their end
+// lies one more group of lanes that kernels may read, so that loops need no remainder: it holds zeros, or
+// what once was an element.
 #pragma once
+#include <algorithm>
 #include <cstddef>
 #include <new>
+#include <type_traits>
 #include <vector>
 
 namespace cinch {
 
 template <class T>
 struct AlignedAllocator {
+  static_assert(std::is_trivial_v<T>);
   using value_type = T;
   static constexpr std::align_val_t alignment{64};
+  static constexpr std::size_t spare = 8;  ///< readable elements behind the end
   AlignedAllocator() = default;
   template <class U>
   AlignedAllocator(const AlignedAllocator<U>&) {}
-  T* allocate(std::size_t n) { return static_cast<T*>(::operator new(n * sizeof(T), alignment)); }
+  T* allocate(std::size_t n) {
+    T* const data = static_cast<T*>(::operator new((n + spare) * sizeof(T), alignment));
+    std::fill(data + n, data + n + spare, T{});
+    return data;
+  }
   void deallocate(T* p, std::size_t) { ::operator delete(p, alignment); }
   template <class U>
   bool operator==(const AlignedAllocator<U>&) const {

@@ -1,55 +1,73 @@
 // What the kernels read and write: plain pointers and counts, owned by the store and the plan.
-// Units are SI; "node", "element", "ring" tell an array's length.
+// Units are SI; "node", "slot", "force", "ring" tell an array's length.
 #pragma once
 #include "base/index.hpp"
 
 namespace cinch::kernel {
 
-constexpr Index block_size =
-    256;                    ///< elements or nodes of a block: the unit of work, the same for any thread count
-constexpr Index lanes = 8;  ///< fixed lanes of a block's sums: the same bits for every vector width
+constexpr Index block_size = 256;  ///< nodes that are computed and moved together, about
+constexpr Index grain = 128;       ///< nodes whose elements share one row of the ledger; whole groups
+constexpr Index lanes = 8;         ///< nodes and elements go in groups of so many, whatever the vector width
+constexpr Index max_terms = 3;     ///< element forces on a node that one pass adds up, in pairs (+, -)
 
-/// A stretch of elements whose end nodes rise by one: element + k joins nodes a + k and b + k.
+/// Elements whose lower ends are the nodes of whole groups from `node` on; the upper ends lie `step` nodes
+/// further on. Lanes without element have void parameters and give zero force.
 struct Span {
-  Index element, count, a, b;
+  Index node, groups, step;
+  Index parameter;  ///< of the first group; the others follow
+  Index force;      ///< where the first lane's force goes; the others follow
+  Index row_node;   ///< number of `node` in the whole scene, for the ledger; -1: booked elsewhere
 };
 
-/// A block of elements: spans [span_begin, span_end).
-struct ElementBlock {
-  Index span_begin, span_end;
+/// A single element.
+struct Link {
+  Index a, b, force;
+  Index row;  ///< of the ledger, -1: booked elsewhere
+  double stiffness, damping, rest_length;
+};
+
+/// Forces to copy [from, from + count) -> [to, ...), or from -1: to set to zero, before a block's elements.
+struct Patch {
+  Index to, from, count;
 };
 
 struct AxialArguments {
   const double *x, *y, *z, *vx, *vy, *vz;  ///< node: position, velocity half a step earlier
-  const double* stiffness;                 ///< element: k, N/m
-  const double* damping;                   ///< element: c, N s/m
-  const double* rest_length;               ///< element: l0, m
-  double *fx, *fy, *fz;                    ///< element: force on its end a (minus it acts on b), N
-  double* dissipated;                      ///< element block x lanes: sum of damper power times dt, J
-  double dt;                               ///< s; 0 books nothing
+  const Index* parameter;                  ///< group: its row of the palette
+  const double* palette;                   ///< row x (k lanes, c lanes, l0 lanes): N/m, N s/m, m
+  double *fx, *fy, *fz;                    ///< force: on the element's end a (minus it acts on b), N
+  double* dissipated;                      ///< ledger row x lanes: sum of damper power over the steps, W
 };
 
-/// One summand of a stretch: node + k takes sign times the force of element + k.
-struct GatherSource {
-  Index element;
+/// Nodes that follow each other and whose element forces do so, too: node + k takes the sum of force[plus +
+/// k] minus force[minus + k] over the terms, in order. What a node lacks points to zeros.
+struct Stretch {
+  Index node, count, terms;
+  Index plus[max_terms], minus[max_terms];
+};
+
+/// The force of a link, or a term too many for a stretch, on one node.
+struct Kick {
+  Index node, force;
   double sign;
 };
 
-/// Nodes [node, node + count) whose elements follow each other likewise: the sum of sources, in order.
-struct GatherStretch {
-  Index node, count;
-  Index source_begin, source_end;
+/// A contact force on a node, N.
+struct Load {
+  Index node;
+  double x, y, z;
 };
 
-/// A contact load that one node takes: force[slot].
-struct LoadEntry {
-  Index node, slot;
-};
-
-/// A guided (moves along axis) or fixed (axis = 0) node.
+/// A guided (moves along the axis) or fixed (axis = 0) node.
 struct Constraint {
   Index node;
   double ax, ay, az;
+  double mass;  ///< kg
+};
+
+/// Where a constrained node was before the step.
+struct Held {
+  double x, y, z, vx, vy, vz;
 };
 
 /// What a constraint has taken from its node so far: impulse, N s, and its moment about the origin, N m s.
@@ -57,38 +75,20 @@ struct Reaction {
   double impulse[3], moment[3];
 };
 
-/// A block of nodes [first, first + count) with what it gathers.
-struct NodeBlock {
-  Index first, count;
-  Index stretch_begin, stretch_end;
-  Index constraint_begin, constraint_end;
-};
-
 struct NodeArguments {
-  double *x, *y, *z, *vx, *vy, *vz;   ///< node
-  const double *mass, *inverse_mass;  ///< node, kg, 1/kg
-  const double *fx, *fy, *fz;         ///< element: force on its end a, N
-  const GatherStretch* stretches;
-  const GatherSource* sources;
-  const double *load_x, *load_y, *load_z;  ///< slot: contact loads, N
-  const LoadEntry* entries;
-  const Index* entry_begin;  ///< node block + 1: its stretch of entries
-  const Constraint* constraints;
-  Reaction* reactions;  ///< constraint
-  double gravity[3];    ///< m/s^2
-  double dt;            ///< s
-};
-
-/// What a node block saw: greatest squared speed, and a sum that is finite as long as every speed is.
-struct Watch {
-  double greatest, sum;
+  double *x, *y, *z, *vx, *vy, *vz;  ///< node
+  const double* scale;               ///< node: dt / m, s/kg; 0: not moved here
+  const double *fx, *fy, *fz;        ///< force, N
+  double gravity[3];                 ///< dt g, m/s
+  double dt;                         ///< s
 };
 
 /// One element, or one mass as a sphere (a == b), that may touch one ring or ball before the broadphase
 /// margin is used up.
-struct Candidate {
+struct Pair {
   Index a, b;                 ///< nodes
-  Index element;              ///< for messages; sphere_label(node) of a sphere
+  Index element;              ///< for messages: user's number; sphere_label(node) of a sphere
+  Index with;                 ///< ring or ball
   double contact_distance;    ///< r_A + r_B: centre lines closer than this touch, m (ball: r_A + R)
   double stiffness;           ///< k_c of eq. (7), N/m^1.5
   double weight_a, weight_b;  ///< share of the end node's contact to take off: (degree - 1) / degree, or 0
@@ -104,7 +104,7 @@ struct RingGeometry {
   double reach;      ///< nothing farther from the centre than this touches the ring, m
 };
 
-/// What a ring has felt; every field is written by the one thread that owns the ring.
+/// What a ring has felt; every field is written by the one thread that books the ring.
 struct RingTally {
   double force[3];           ///< now, N
   double potential;          ///< contact energy now, J
@@ -124,24 +124,21 @@ struct RingTally {
 struct ContactArguments {
   const double *x, *y, *z, *vx, *vy, *vz;  ///< node
   const double* node_share;  ///< node: 1 / (mass x what the elements leave of the stable step), 1/kg
-  const Candidate* candidates;
-  double *load_x, *load_y, *load_z;  ///< slot: 2 i and 2 i + 1 for candidate i's ends
-  double alpha;                      ///< of eq. (9), s/m
-  double time, dt;                   ///< s; dt 0 books nothing
-  double step;                       ///< s, for the share of the stable step
+  double alpha;              ///< of eq. (9), s/m
+  double time, dt;           ///< s; dt 0 books nothing
+  double step;               ///< s, for the share of the stable step
 };
 
 struct RingArguments {
   ContactArguments contact;
   const RingGeometry* rings;
-  const Index* candidate_begin;  ///< ring + 1
-  RingTally* tallies;            ///< ring
-  Index host_slot;               ///< first of the rings' slots: host_slot + 2 r and + 1
-  bool golden;                   ///< closest point by golden section, the paper's method
-  bool couple;                   ///< keep the couple that eq. (12) drops
+  RingTally* const* tallies;  ///< ring: where it is booked, or null: booked elsewhere
+  Index ring_count;
+  bool golden;  ///< closest point by golden section, the paper's method
+  bool couple;  ///< keep the couple that eq. (12) drops
 };
 
-/// What the candidates of one chunk on a ball have felt.
+/// What one pair with a ball has felt, or a sum of such.
 struct BallTally {
   double potential;              ///< now, J
   double dissipated;             ///< J
@@ -154,8 +151,8 @@ struct BallTally {
 
 struct BallArguments {
   ContactArguments contact;
-  double center[3], radius;  ///< m
-  Index first_slot;          ///< slot of candidate 0's end a
+  const double* centers;      ///< ball x 3, m
+  BallTally* const* tallies;  ///< pair: where it is booked, or null: booked elsewhere
 };
 
 }  // namespace cinch::kernel

@@ -1,4 +1,6 @@
-// Element forces, block by block; the law stands in axial_law.hpp.
+// Element forces, group by group and link by link; the law stands in axial_law.hpp.
+#include <cstddef>
+
 #include "kernels/axial_law.hpp"
 #include "kernels/kernel_table.hpp"
 
@@ -6,62 +8,124 @@ namespace cinch::CINCH_ISA {
 namespace {
 
 using kernel::AxialArguments;
-using kernel::ElementBlock;
+using kernel::lanes;
+using kernel::Link;
+using kernel::Patch;
 using kernel::Span;
 
-// One span; power[k] receives the damper's power of element k when the ledger wants it.
-template <bool damped, bool ledger>
-inline void span_forces(const AxialArguments& g, const Span& span, double* __restrict power) {
-  const double* __restrict ax = g.x + span.a, * __restrict ay = g.y + span.a, * __restrict az = g.z + span.a;
-  const double* __restrict bx = g.x + span.b, * __restrict by = g.y + span.b, * __restrict bz = g.z + span.b;
-  const double* __restrict au = g.vx + span.a, * __restrict av = g.vy + span.a, * __restrict aw = g.vz + span.a;
-  const double* __restrict bu = g.vx + span.b, * __restrict bv = g.vy + span.b, * __restrict bw = g.vz + span.b;
-  const double* __restrict k = g.stiffness + span.element;
-  const double* __restrict c = g.damping + span.element;
-  const double* __restrict l0 = g.rest_length + span.element;
-  double* __restrict fx = g.fx + span.element, * __restrict fy = g.fy + span.element, * __restrict fz = g.fz + span.element;
+// The lower ends of a span's elements and where their forces go. As few addresses as possible: they shall
+// stay in registers.
+struct SpanView {
+  const double* __restrict x, * __restrict y, * __restrict z, * __restrict u, * __restrict v, * __restrict w;
+  double* __restrict fx, * __restrict fy, * __restrict fz;
+  const Index* __restrict parameter;
+  const double* __restrict palette;
+  std::ptrdiff_t step;
+};
+
+inline SpanView view(const AxialArguments& g, const Span& s) {
+  return {g.x + s.node,  g.y + s.node,   g.z + s.node,   g.vx + s.node,  g.vy + s.node,
+          g.vz + s.node, g.fx + s.force, g.fy + s.force, g.fz + s.force, g.parameter + s.parameter,
+          g.palette,     s.step};
+}
+
+// One group of elements; adds their dampers' powers to `sums`, lane by lane, so that the bits are the same
+// for every vector width. In a chain each upper end is the next lower one.
+template <bool damped, bool ledger, bool chain>
+inline void group(const SpanView& s, std::ptrdiff_t number, double* __restrict sums) {
+  const double* __restrict const row =
+      s.palette + 3 * lanes * static_cast<std::ptrdiff_t>(s.parameter[number]);
+  const std::ptrdiff_t first = number * lanes, step = chain ? 1 : s.step;
 #pragma omp simd
-  for (Index i = 0; i < span.count; ++i) {
-    const double rx = bx[i] - ax[i], ry = by[i] - ay[i], rz = bz[i] - az[i];
+  for (std::ptrdiff_t lane = 0; lane < lanes; ++lane) {
+    const std::ptrdiff_t i = first + lane, j = i + step;
+    const double rx = s.x[j] - s.x[i], ry = s.y[j] - s.y[i], rz = s.z[j] - s.z[i];
     const double rr = rx * rx + ry * ry + rz * rz;
-    const double rv = damped ? rx * (bu[i] - au[i]) + ry * (bv[i] - av[i]) + rz * (bw[i] - aw[i]) : 0.0;
-    const Axial item = axial_law(rr, rv, k[i], damped ? c[i] : 0.0, l0[i]);
-    fx[i] = item.per_length * rx;
-    fy[i] = item.per_length * ry;
-    fz[i] = item.per_length * rz;
-    if (damped && ledger) power[i] = item.power;
+    const double rv = damped ? rx * (s.u[j] - s.u[i]) + ry * (s.v[j] - s.v[i]) + rz * (s.w[j] - s.w[i]) : 0.0;
+    const Axial item = axial_law(rr, rv, row[lane], damped ? row[lanes + lane] : 0.0, row[2 * lanes + lane]);
+    s.fx[i] = item.per_length * rx;
+    s.fy[i] = item.per_length * ry;
+    s.fz[i] = item.per_length * rz;
+    if (ledger) sums[lane] += item.power;
   }
 }
 
-// Adds a block's powers lane by lane: element i of the block goes to lane i mod 8, whatever the vector width.
-inline void add_lanes(const double* __restrict power, Index count, double dt, double* __restrict sums) {
-  Index i = 0;
-  for (; i + kernel::lanes <= count; i += kernel::lanes)
-    for (Index lane = 0; lane < kernel::lanes; ++lane) sums[lane] += dt * power[i + lane];
-  for (Index lane = 0; i < count; ++i, ++lane) sums[lane] += dt * power[i];
+template <bool damped, bool chain>
+inline void groups(const SpanView& s, const Span& span) {
+  for (std::ptrdiff_t i = 0; i < span.groups; ++i) group<damped, false, chain>(s, i, nullptr);
+}
+
+// The same with the powers added to the rows of the ledger.
+template <bool chain>
+inline void booked_groups(const SpanView& s, const Span& span, double* dissipated) {
+  constexpr Index row_groups = kernel::grain / lanes;
+  const Index first = span.row_node / lanes;  // number of the first group in the whole scene
+  for (Index i = 0; i < span.groups;) {
+    const Index row_number = (first + i) / row_groups;
+    const Index row_end = (row_number + 1) * row_groups - first;
+    const Index end = row_end < span.groups ? row_end : span.groups;
+    double* __restrict const row = dissipated + row_number * lanes;
+    alignas(64) double sums[lanes];
+    for (Index lane = 0; lane < lanes; ++lane) sums[lane] = row[lane];
+    for (; i < end; ++i) group<true, true, chain>(s, i, sums);
+    for (Index lane = 0; lane < lanes; ++lane) row[lane] = sums[lane];
+  }
+}
+
+template <bool damped, bool ledger, bool chain>
+inline void compute(const AxialArguments& g, const Span& span) {
+  if (damped && ledger && span.row_node >= 0) booked_groups<chain>(view(g, span), span, g.dissipated);
+  else groups<damped, chain>(view(g, span), span);
 }
 
 template <bool damped, bool ledger>
-void axial_forces(const AxialArguments& g, const ElementBlock* blocks, const Span* spans, Index begin,
-                  Index end) {
-  alignas(64) double power[kernel::block_size];
-  for (Index block = begin; block < end; ++block) {
-    Index count = 0;
-    for (Index s = blocks[block].span_begin; s < blocks[block].span_end; ++s) {
-      span_forces<damped, ledger>(g, spans[s], power + count);
-      count += spans[s].count;
-    }
-    if (damped && ledger) add_lanes(power, count, g.dt, g.dissipated + block * kernel::lanes);
+void axial_spans(const AxialArguments& g, const Span* spans, Index begin, Index end) {
+  for (Index i = begin; i < end; ++i)
+    spans[i].step == 1 ? compute<damped, ledger, true>(g, spans[i])
+                       : compute<damped, ledger, false>(g, spans[i]);
+}
+
+template <bool damped, bool ledger>
+void axial_links(const AxialArguments& g, const Link* links, Index begin, Index end) {
+  for (Index i = begin; i < end; ++i) {
+    const Link& l = links[i];
+    const V3 r{g.x[l.b] - g.x[l.a], g.y[l.b] - g.y[l.a], g.z[l.b] - g.z[l.a]};
+    const V3 v{g.vx[l.b] - g.vx[l.a], g.vy[l.b] - g.vy[l.a], g.vz[l.b] - g.vz[l.a]};
+    const Axial item =
+        axial_law(dot(r, r), damped ? dot(r, v) : 0.0, l.stiffness, damped ? l.damping : 0.0, l.rest_length);
+    g.fx[l.force] = item.per_length * r.x;
+    g.fy[l.force] = item.per_length * r.y;
+    g.fz[l.force] = item.per_length * r.z;
+    if (damped && ledger && l.row >= 0) g.dissipated[l.row * lanes] += item.power;
   }
+}
+
+inline void patch(double* force, const Patch& p) {
+  for (Index k = 0; k < p.count; ++k) force[p.to + k] = p.from < 0 ? 0.0 : force[p.from + k];
+}
+
+void patch_forces(const AxialArguments& g, const Patch* patches, Index begin, Index end) {
+  for (Index i = begin; i < end; ++i) {
+    patch(g.fx, patches[i]);
+    patch(g.fy, patches[i]);
+    patch(g.fz, patches[i]);
+  }
+}
+
+template <bool damped, bool ledger>
+void fill(KernelTable& table) {
+  table.axial_spans[damped][ledger] = axial_spans<damped, ledger>;
+  table.axial_links[damped][ledger] = axial_links<damped, ledger>;
 }
 
 }  // namespace
 
 void fill_axial(KernelTable& table) {
-  table.axial_forces[0][0] = axial_forces<false, false>;
-  table.axial_forces[0][1] = axial_forces<false, true>;
-  table.axial_forces[1][0] = axial_forces<true, false>;
-  table.axial_forces[1][1] = axial_forces<true, true>;
+  fill<false, false>(table);
+  fill<false, true>(table);
+  fill<true, false>(table);
+  fill<true, true>(table);
+  table.patch_forces = patch_forces;
 }
 
 }  // namespace cinch::CINCH_ISA

@@ -17,15 +17,14 @@ struct Axial {
 /// plain numbers, as loops over small structs are not vectorised by every compiler.
 inline Axial axial_law(double rr, double rv, double k, double c, double l0) {
   const double length = std::sqrt(rr);
-  const double stretch = length - l0;
-  // a slack element may have length zero: divide by l0 then, the tension is zero anyway
-  const double inverse = 1.0 / (stretch > 0 ? length : l0);
-  const double rate = rv * inverse;
+  const double taut = length > l0 ? length : l0;  // a slack element may have length zero, l0 is none
+  const double inverse = 1.0 / taut;
+  const double stretch = taut - l0;
+  const double rate = stretch > 0 ? rv * inverse : 0.0;
   const double spring = k * stretch;
   const double pull = spring + c * rate;
-  const double tension = stretch > 0 && pull > 0 ? pull : 0.0;
-  const double power = stretch > 0 ? (tension - spring) * rate : 0.0;
-  return {tension, tension * inverse, power};
+  const double tension = pull > 0 ? pull : 0.0;
+  return {tension, tension * inverse, (tension - spring) * rate};
 }
 
 }  // namespace cinch::CINCH_ISA

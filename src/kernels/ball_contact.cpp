@@ -9,7 +9,7 @@ namespace {
 
 using kernel::BallArguments;
 using kernel::BallTally;
-using kernel::Candidate;
+using kernel::Pair;
 
 // Parameter of the segment's point closest to the centre.
 inline double closest_on_segment(V3 a, V3 b, V3 center) {
@@ -19,13 +19,17 @@ inline double closest_on_segment(V3 a, V3 b, V3 center) {
   return t < 0 ? 0.0 : (t > 1 ? 1.0 : t);
 }
 
-// Adds `weight` times the contact of the point at t, if there is one; the law's result for the watch.
-inline ContactForce add_contact(const BallArguments& g, const Candidate& c, V3 place, double t, double weight,
-                                EndLoads& loads, BallTally& tally) {
+// What one pair feels in one step.
+struct BallSum {
+  double potential = 0, power = 0, penetration = 0;
+  V3 impulse{0, 0, 0}, moment{0, 0, 0};  // of the force: times dt
+};
+
+// Adds `weight` times the contact of the point at t, which lies `out` from the centre; the law's result for
+// the watch.
+inline ContactForce add_contact(const BallArguments& g, const Pair& c, V3 place, V3 out, double distance,
+                                double t, double weight, EndLoads& loads, BallSum& sum) {
   const auto& k = g.contact;
-  const V3 out = place - V3{g.center[0], g.center[1], g.center[2]};
-  const double distance = norm(out);
-  if (!(distance < c.contact_distance)) return {0, 0, 0, 0, 0};
   const V3 n = distance > 0 ? (1 / distance) * out : V3{0, 0, 1};
   const double rate = -dot(n, blend(at(k.vx, k.vy, k.vz, c.a), at(k.vx, k.vy, k.vz, c.b), t));
   const double penetration = c.contact_distance - distance;
@@ -33,51 +37,72 @@ inline ContactForce add_contact(const BallArguments& g, const Candidate& c, V3 p
   const V3 force = (weight * law.force) * n;
   loads.a = loads.a + (1 - t) * force;
   loads.b = loads.b + t * force;
-  tally.potential += weight * law.potential;
-  tally.dissipated += k.dt * (weight * (law.force - law.elastic) * rate);
-  const V3 moment = cross(place, force);
-  const double impulse[3] = {k.dt * force.x, k.dt * force.y, k.dt * force.z};
-  const double turned[3] = {k.dt * moment.x, k.dt * moment.y, k.dt * moment.z};
-  for (int d = 0; d < 3; ++d) {
-    tally.impulse[d] += impulse[d];
-    tally.moment[d] += turned[d];
-  }
-  if (penetration > tally.max_penetration) tally.max_penetration = penetration;
+  sum.potential += weight * law.potential;
+  sum.power += weight * (law.force - law.elastic) * rate;
+  sum.impulse = sum.impulse + force;
+  sum.moment = sum.moment + cross(place, force);
+  sum.penetration = penetration > sum.penetration ? penetration : sum.penetration;
   return law;
 }
 
-inline EndLoads candidate_contact(const BallArguments& g, const Candidate& c, BallTally& tally) {
-  const auto& k = g.contact;
-  EndLoads loads;
-  const V3 center{g.center[0], g.center[1], g.center[2]};
-  const V3 xa = at(k.x, k.y, k.z, c.a), xb = at(k.x, k.y, k.z, c.b);
-  const double t = closest_on_segment(xa, xb, center);
-  const ContactForce law = add_contact(g, c, blend(xa, xb, t), t, 1, loads, tally);
-  if (!(law.elastic > 0)) return loads;
-  if (c.weight_a != 0) add_contact(g, c, xa, 0, -c.weight_a, loads, tally);
-  if (c.weight_b != 0) add_contact(g, c, xb, 1, -c.weight_b, loads, tally);
-  if (tally.first_time < 0) tally.first_time = k.time;
-  const double share = thread_share(k, c, t, step_weight(k, law));
-  if (share > tally.stiffest) {
-    tally.stiffest = share;
-    tally.stiffest_time = k.time;
-    tally.stiffest_element = c.element;
-  }
-  return loads;
+// Takes off the share of an end node's own contact.
+inline void take_off_node(const BallArguments& g, const Pair& c, V3 place, V3 center, double t, double weight,
+                          EndLoads& loads, BallSum& sum) {
+  if (weight == 0) return;
+  const V3 out = place - center;
+  const double distance = norm(out);
+  if (distance < c.contact_distance) add_contact(g, c, place, out, distance, t, -weight, loads, sum);
 }
 
-void ball_contacts(const BallArguments& g, Index begin, Index end, BallTally& tally) {
-  tally.potential = 0;
-  for (Index i = begin; i < end; ++i) {
-    const EndLoads loads = candidate_contact(g, g.contact.candidates[i], tally);
-    const Index slot = g.first_slot + 2 * i;
-    const V3 ends[2] = {loads.a, loads.b};
-    for (int s = 0; s < 2; ++s) {
-      g.contact.load_x[slot + s] = ends[s].x;
-      g.contact.load_y[slot + s] = ends[s].y;
-      g.contact.load_z[slot + s] = ends[s].z;
-    }
+inline void book(const BallArguments& g, const Pair& c, const BallSum& sum, double share, BallTally& tally) {
+  const double dt = g.contact.dt;
+  tally.potential = sum.potential;
+  tally.dissipated += dt * sum.power;
+  const double force[3] = {sum.impulse.x, sum.impulse.y, sum.impulse.z};
+  const double moment[3] = {sum.moment.x, sum.moment.y, sum.moment.z};
+  for (int d = 0; d < 3; ++d) {
+    tally.impulse[d] += dt * force[d];
+    tally.moment[d] += dt * moment[d];
   }
+  if (sum.penetration > tally.max_penetration) tally.max_penetration = sum.penetration;
+  if (tally.first_time < 0) tally.first_time = g.contact.time;
+  if (share > tally.stiffest) {
+    tally.stiffest = share;
+    tally.stiffest_time = g.contact.time;
+    tally.stiffest_element = c.element;
+  }
+}
+
+// One pair in contact, at parameter t of its element.
+inline void touch(const BallArguments& g, const Pair& c, V3 xa, V3 xb, V3 center, double t, BallTally* tally,
+                  LoadWriter& out) {
+  EndLoads loads;
+  BallSum sum;
+  const V3 place = blend(xa, xb, t), away = place - center;
+  const ContactForce law = add_contact(g, c, place, away, norm(away), t, 1, loads, sum);
+  take_off_node(g, c, xa, center, 0, c.weight_a, loads, sum);
+  take_off_node(g, c, xb, center, 1, c.weight_b, loads, sum);
+  if (tally != nullptr) book(g, c, sum, thread_share(g.contact, c, t, step_weight(g.contact, law)), *tally);
+  out.add(c.a, loads.a);
+  out.add(c.b, loads.b);
+}
+
+Index ball_contacts(const BallArguments& g, const Pair* pairs, const Index* near, Index count, double* gap,
+                    kernel::Load* loads) {
+  const auto& k = g.contact;
+  LoadWriter out{loads};
+  for (Index i = 0; i < count; ++i) {
+    const Pair& c = pairs[near[i]];
+    const double* const middle = g.centers + 3 * c.with;
+    const V3 center{middle[0], middle[1], middle[2]};
+    const V3 xa = at(k.x, k.y, k.z, c.a), xb = at(k.x, k.y, k.z, c.b);
+    const double t = closest_on_segment(xa, xb, center);
+    gap[i] = norm(blend(xa, xb, t) - center) - c.contact_distance;
+    BallTally* const tally = g.tallies[near[i]];
+    if (gap[i] < 0) touch(g, c, xa, xb, center, t, tally, out);
+    else if (tally != nullptr) tally->potential = 0;
+  }
+  return static_cast<Index>(out.next - loads);
 }
 
 }  // namespace

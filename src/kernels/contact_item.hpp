@@ -9,7 +9,7 @@ inline V3 at(const double* x, const double* y, const double* z, Index i) { retur
 
 inline V3 blend(V3 a, V3 b, double t) { return (1 - t) * a + t * b; }
 
-/// Forces that one candidate puts on its two ends, N.
+/// Forces that one pair puts on its two ends, N.
 struct EndLoads {
   V3 a{0, 0, 0}, b{0, 0, 0};
 };
@@ -24,12 +24,18 @@ inline double step_weight(const kernel::ContactArguments& g, const ContactForce&
 /// rule; thread ends).
 inline double multiplicity(double weight) { return weight > 0 ? 1.0 : 2.0; }
 
-/// Share of the stable step that a contact uses on the thread's side, with the mass that the elements leave over
-/// (node_share).
-inline double thread_share(const kernel::ContactArguments& g, const kernel::Candidate& c, double t,
-                           double kappa) {
+/// Share of the stable step that a contact uses on the thread's side, with the mass that the elements leave
+/// over (node_share).
+inline double thread_share(const kernel::ContactArguments& g, const kernel::Pair& c, double t, double kappa) {
   return kappa * ((1 - t) * (1 - t) * multiplicity(c.weight_a) * g.node_share[c.a] +
                   t * t * multiplicity(c.weight_b) * g.node_share[c.b]);
 }
+
+/// Where a kernel puts the contact forces on nodes, in the order in which nodes take them.
+struct LoadWriter {
+  kernel::Load* next;
+
+  void add(Index node, V3 force) { *next++ = {node, force.x, force.y, force.z}; }
+};
 
 }  // namespace cinch::CINCH_ISA

@@ -5,18 +5,35 @@
 
 namespace cinch {
 
+/// Entries that take begin and end work on that stretch of the list before them.
 struct KernelTable {
   const char* isa;  ///< "base" (x86-64, or whatever the compiler targets), "v3", "v4"
-  /// [damped][ledger]: forces of element blocks [begin, end).
-  void (*axial_forces[2][2])(const kernel::AxialArguments&, const kernel::ElementBlock*, const kernel::Span*,
-                             Index begin, Index end);
-  /// Contacts of rings [begin, end) with their candidates.
-  void (*ring_contacts)(const kernel::RingArguments&, Index begin, Index end);
-  /// Contacts of candidates [begin, end) with one ball, booked in one tally.
-  void (*ball_contacts)(const kernel::BallArguments&, Index begin, Index end, kernel::BallTally& tally);
-  /// [gravity]: gathers forces on node blocks [begin, end) and moves them; watch[block] is written.
-  void (*update_nodes[2])(const kernel::NodeArguments&, const kernel::NodeBlock*, Index begin, Index end,
-                          kernel::Watch* watch);
+  /// [damped][ledger]: element forces of spans.
+  void (*axial_spans[2][2])(const kernel::AxialArguments&, const kernel::Span*, Index begin, Index end);
+  /// [damped][ledger]: element forces of links.
+  void (*axial_links[2][2])(const kernel::AxialArguments&, const kernel::Link*, Index begin, Index end);
+  void (*patch_forces)(const kernel::AxialArguments&, const kernel::Patch*, Index begin, Index end);
+  /// [gravity][watch]: gathers element forces and moves nodes; returns the greatest squared speed, if
+  /// watched.
+  double (*move_nodes[2][2])(const kernel::NodeArguments&, const kernel::Stretch*, Index begin, Index end);
+  /// Adds forces of links to nodes that have moved; returns the greatest squared speed among them.
+  double (*kick_nodes)(const kernel::NodeArguments&, const kernel::Kick*, Index begin, Index end);
+  /// Adds contact forces likewise; nodes with scale 0 are left alone.
+  double (*load_nodes)(const kernel::NodeArguments&, const kernel::Load*, Index count);
+  /// Notes where constrained nodes are, before anything moves.
+  void (*hold_before)(const kernel::NodeArguments&, const kernel::Constraint*, Index begin, Index end,
+                      kernel::Held*);
+  /// Takes off what the supports do not allow and books it in `reactions` (constraint).
+  void (*hold_after)(const kernel::NodeArguments&, const kernel::Constraint*, Index begin, Index end,
+                     const kernel::Held*, kernel::Reaction* const* reactions);
+  /// Contacts of the pairs pairs[near[i]], i < count, in the order of their rings. Writes forces on nodes to
+  /// `loads` (room for two a pair and two a ring) and the distance left to a contact to gap[i], m (negative:
+  /// penetration). Returns the number of loads.
+  Index (*ring_contacts)(const kernel::RingArguments&, const kernel::Pair* pairs, const Index* near,
+                         Index count, double* gap, kernel::Load* loads);
+  /// The same for balls; two loads a pair.
+  Index (*ball_contacts)(const kernel::BallArguments&, const kernel::Pair* pairs, const Index* near,
+                         Index count, double* gap, kernel::Load* loads);
 };
 
 /// The best table for this machine, or the one named by the environment variable CINCH_ISA ("base", "v3",

@@ -1,151 +1,183 @@
-// Gathers the forces on each node in a fixed order and moves it by central differences:
+// Moves nodes by central differences:
 //   v(n+1/2) = v(n-1/2) + dt F(n)/m,   x(n+1) = x(n) + dt v(n+1/2)            (paper Sec. 5.3)
 // Forces that depend on velocity use v(n-1/2): the scheme is of second order in dt without them, of first
-// order in them.
+// order in them. Element forces are gathered in the pass that moves the nodes; what only a few nodes feel
+// (links, contacts) is added behind it, v += dt L/m and x += dt (dt L/m), and supports take off last what
+// they do not allow.
+#include <cstddef>
+
 #include "kernels/kernel_table.hpp"
 
 namespace cinch::CINCH_ISA {
 namespace {
 
+using kernel::Constraint;
+using kernel::Kick;
+using kernel::Load;
 using kernel::NodeArguments;
-using kernel::NodeBlock;
+using kernel::Stretch;
 
-// Forces on the nodes of one block, N.
-struct BlockForce {
-  alignas(64) double x[kernel::block_size], y[kernel::block_size], z[kernel::block_size];
+// Where the forces of one term begin: those of the first node, x, y and z.
+struct Force {
+  const double *x, *y, *z;
+  Force(const NodeArguments& g, Index first) : x(g.fx + first), y(g.fy + first), z(g.fz + first) {}
 };
 
-// Nodes of one stretch with `count` summands each, known when compiled: one pass, each force written once.
-template <bool gravity, int count>
-inline void sum_stretch(const NodeArguments& g, const kernel::GatherStretch& s, Index first, BlockForce& f) {
-  double* __restrict fx = f.x + (s.node - first), * __restrict fy = f.y + (s.node - first), * __restrict fz = f.z + (s.node - first);
-  const double* __restrict m = g.mass + s.node;
-  const double gx = g.gravity[0], gy = g.gravity[1], gz = g.gravity[2];
-  const double *ex[count + 1], *ey[count + 1], *ez[count + 1];
-  double sign[count + 1];
-  for (int n = 0; n < count; ++n) {
-    const kernel::GatherSource& source = g.sources[s.source_begin + n];
-    ex[n] = g.fx + source.element;
-    ey[n] = g.fy + source.element;
-    ez[n] = g.fz + source.element;
-    sign[n] = source.sign;
-  }
-#pragma omp simd
-  for (Index i = 0; i < s.count; ++i) {
-    double x = gravity ? m[i] * gx : 0.0, y = gravity ? m[i] * gy : 0.0, z = gravity ? m[i] * gz : 0.0;
-    for (int n = 0; n < count; ++n) {
-      x += sign[n] * ex[n][i];
-      y += sign[n] * ey[n][i];
-      z += sign[n] * ez[n][i];
-    }
-    fx[i] = x;
-    fy[i] = y;
-    fz[i] = z;
-  }
+// The sum of a node's terms along one axis. In a chain the first term's forces follow each other in memory,
+// so that one address serves both.
+template <bool chain, int terms>
+inline double sum(const double* p0, const double* m0, const double* p1, const double* m1, const double* p2,
+                  const double* m2, std::ptrdiff_t i) {
+  if (terms == 0) return 0;
+  double all = p0[i] - (chain ? p0[i - 1] : m0[i]);
+  if (terms > 1) all += p1[i] - m1[i];
+  if (terms > 2) all += p2[i] - m2[i];
+  return all;
 }
 
-// The summands from number `from` on, for the few nodes where more than four elements meet.
-inline void add_rest(const NodeArguments& g, const kernel::GatherStretch& s, Index from, Index first,
-                     BlockForce& f) {
-  for (Index n = s.source_begin + from; n < s.source_end; ++n) {
-    const auto [element, sign] = g.sources[n];
-    for (Index i = 0; i < s.count; ++i) {
-      f.x[s.node - first + i] += sign * g.fx[element + i];
-      f.y[s.node - first + i] += sign * g.fy[element + i];
-      f.z[s.node - first + i] += sign * g.fz[element + i];
+// `count` nodes; returns the greatest squared speed where it is watched. Parameters rather than a struct: so
+// compilers know that the arrays are apart.
+template <bool gravity, bool watch, bool chain, int terms>
+inline double move(std::ptrdiff_t count, double* __restrict x, double* __restrict y, double* __restrict z,
+                   double* __restrict vx, double* __restrict vy, double* __restrict vz,
+                   const double* __restrict scale, Force p0, Force m0, Force p1, Force m1, Force p2, Force m2,
+                   const double (&pull)[3], double dt) {
+  const double gx = pull[0], gy = pull[1], gz = pull[2];
+  double greatest = 0;
+#pragma omp simd reduction(max : greatest)
+  for (std::ptrdiff_t i = 0; i < count; ++i) {
+    const double s = scale[i];
+    const double ax = s * sum<chain, terms>(p0.x, m0.x, p1.x, m1.x, p2.x, m2.x, i);
+    const double ay = s * sum<chain, terms>(p0.y, m0.y, p1.y, m1.y, p2.y, m2.y, i);
+    const double az = s * sum<chain, terms>(p0.z, m0.z, p1.z, m1.z, p2.z, m2.z, i);
+    const double u = vx[i] + (gravity ? ax + gx : ax);
+    const double v = vy[i] + (gravity ? ay + gy : ay);
+    const double w = vz[i] + (gravity ? az + gz : az);
+    const double new_x = x[i] + dt * u, new_y = y[i] + dt * v, new_z = z[i] + dt * w;
+    vx[i] = u, vy[i] = v, vz[i] = w;
+    x[i] = new_x, y[i] = new_y, z[i] = new_z;
+    if (watch) {
+      const double squared = u * u + v * v + w * w;
+      greatest = squared > greatest ? squared : greatest;
     }
   }
+  return greatest;
 }
 
-template <bool gravity>
-inline void gather(const NodeArguments& g, const kernel::GatherStretch& s, Index first, BlockForce& f) {
-  switch (s.source_end - s.source_begin) {
+// The nodes of one stretch.
+template <bool gravity, bool watch, bool chain, int terms>
+double move_stretch(const NodeArguments& g, const Stretch& s) {
+  return move<gravity, watch, chain, terms>(
+      s.count, g.x + s.node, g.y + s.node, g.z + s.node, g.vx + s.node, g.vy + s.node, g.vz + s.node,
+      g.scale + s.node, Force(g, s.plus[0]), Force(g, s.minus[0]), Force(g, s.plus[1]), Force(g, s.minus[1]),
+      Force(g, s.plus[2]), Force(g, s.minus[2]), g.gravity, g.dt);
+}
+
+template <bool gravity, bool watch>
+inline double move_one(const NodeArguments& g, const Stretch& s) {
+  const bool chain = s.minus[0] == s.plus[0] - 1;
+  switch (s.terms) {
     case 0:
-      return sum_stretch<gravity, 0>(g, s, first, f);
+      return move_stretch<gravity, watch, false, 0>(g, s);
     case 1:
-      return sum_stretch<gravity, 1>(g, s, first, f);
+      return chain ? move_stretch<gravity, watch, true, 1>(g, s)
+                   : move_stretch<gravity, watch, false, 1>(g, s);
     case 2:
-      return sum_stretch<gravity, 2>(g, s, first, f);
-    case 3:
-      return sum_stretch<gravity, 3>(g, s, first, f);
+      return chain ? move_stretch<gravity, watch, true, 2>(g, s)
+                   : move_stretch<gravity, watch, false, 2>(g, s);
     default:
-      sum_stretch<gravity, 4>(g, s, first, f);
-      return add_rest(g, s, 4, first, f);
+      return move_stretch<gravity, watch, false, kernel::max_terms>(g, s);
   }
 }
 
-inline void add_loads(const NodeArguments& g, Index begin, Index end, Index first, BlockForce& f) {
-  for (Index e = begin; e < end; ++e) {
-    const Index i = g.entries[e].node - first, slot = g.entries[e].slot;
-    f.x[i] += g.load_x[slot];
-    f.y[i] += g.load_y[slot];
-    f.z[i] += g.load_z[slot];
+template <bool gravity, bool watch>
+double move_nodes(const NodeArguments& g, const Stretch* stretches, Index begin, Index end) {
+  double greatest = 0;
+  for (Index i = begin; i < end; ++i) {
+    const double here = move_one<gravity, watch>(g, stretches[i]);
+    greatest = here > greatest ? here : greatest;
+  }
+  return greatest;
+}
+
+// One more force on a node that has moved already; its new squared speed.
+inline double push(const NodeArguments& g, Index node, double fx, double fy, double fz) {
+  const double s = g.scale[node];
+  const double ax = s * fx, ay = s * fy, az = s * fz;
+  const double u = g.vx[node] + ax, v = g.vy[node] + ay, w = g.vz[node] + az;
+  g.vx[node] = u;
+  g.vy[node] = v;
+  g.vz[node] = w;
+  g.x[node] += g.dt * ax;
+  g.y[node] += g.dt * ay;
+  g.z[node] += g.dt * az;
+  return u * u + v * v + w * w;
+}
+
+double kick_nodes(const NodeArguments& g, const Kick* kicks, Index begin, Index end) {
+  double greatest = 0;
+  for (Index i = begin; i < end; ++i) {
+    const Kick& k = kicks[i];
+    const double here =
+        push(g, k.node, k.sign * g.fx[k.force], k.sign * g.fy[k.force], k.sign * g.fz[k.force]);
+    greatest = here > greatest ? here : greatest;
+  }
+  return greatest;
+}
+
+double load_nodes(const NodeArguments& g, const Load* loads, Index count) {
+  double greatest = 0;
+  for (Index i = 0; i < count; ++i) {
+    const Load& l = loads[i];
+    if (g.scale[l.node] == 0) continue;  // another thread moves it
+    const double here = push(g, l.node, l.x, l.y, l.z);
+    greatest = here > greatest ? here : greatest;
+  }
+  return greatest;
+}
+
+void hold_before(const NodeArguments& g, const Constraint* constraints, Index begin, Index end,
+                 kernel::Held* held) {
+  for (Index c = begin; c < end; ++c) {
+    const Index i = constraints[c].node;
+    held[c] = {g.x[i], g.y[i], g.z[i], g.vx[i], g.vy[i], g.vz[i]};
   }
 }
 
-// Guided and fixed nodes keep the force along their axis; the rest is the support's reaction.
-inline void constrain(const NodeArguments& g, const NodeBlock& block, BlockForce& f) {
-  for (Index c = block.constraint_begin; c < block.constraint_end; ++c) {
-    const kernel::Constraint& k = g.constraints[c];
-    const Index i = k.node - block.first;
-    const double along = f.x[i] * k.ax + f.y[i] * k.ay + f.z[i] * k.az;
-    const double kept[3] = {along * k.ax, along * k.ay, along * k.az};
-    const double taken[3] = {g.dt * (kept[0] - f.x[i]), g.dt * (kept[1] - f.y[i]), g.dt * (kept[2] - f.z[i])};
-    const double at[3] = {g.x[k.node], g.y[k.node], g.z[k.node]};
-    kernel::Reaction& r = g.reactions[c];
+// The node has moved freely; the support takes off what its axis does not allow and books the impulse.
+void hold_after(const NodeArguments& g, const Constraint* constraints, Index begin, Index end,
+                const kernel::Held* held, kernel::Reaction* const* reactions) {
+  for (Index c = begin; c < end; ++c) {
+    const Constraint& k = constraints[c];
+    const kernel::Held& old = held[c];
+    const V3 free{g.vx[k.node] - old.vx, g.vy[k.node] - old.vy, g.vz[k.node] - old.vz};
+    const V3 axis{k.ax, k.ay, k.az};
+    const V3 kept = dot(free, axis) * axis;
+    const V3 taken = k.mass * (kept - free);
+    const V3 moment = cross({old.x, old.y, old.z}, taken);
+    kernel::Reaction& r = *reactions[c];
+    const double impulse[3] = {taken.x, taken.y, taken.z}, turned[3] = {moment.x, moment.y, moment.z};
     for (int d = 0; d < 3; ++d) {
-      r.impulse[d] += taken[d];
-      r.moment[d] += at[(d + 1) % 3] * taken[(d + 2) % 3] - at[(d + 2) % 3] * taken[(d + 1) % 3];
+      r.impulse[d] += impulse[d];
+      r.moment[d] += turned[d];
     }
-    f.x[i] = kept[0];
-    f.y[i] = kept[1];
-    f.z[i] = kept[2];
-  }
-}
-
-inline kernel::Watch move(const NodeArguments& g, const NodeBlock& block, const BlockForce& f) {
-  double* __restrict x = g.x + block.first, * __restrict y = g.y + block.first, * __restrict z = g.z + block.first;
-  double *__restrict vx = g.vx + block.first, *__restrict vy = g.vy + block.first,
-         *__restrict vz = g.vz + block.first;
-  const double* __restrict inverse_mass = g.inverse_mass + block.first;
-  const double dt = g.dt;
-  double greatest = 0, sum = 0;  // the sum only tells whether all is finite, so its order does not matter
-#pragma omp simd reduction(max : greatest) reduction(+ : sum)
-  for (Index i = 0; i < block.count; ++i) {
-    const double scale = dt * inverse_mass[i];
-    const double u = vx[i] + scale * f.x[i], v = vy[i] + scale * f.y[i], w = vz[i] + scale * f.z[i];
-    vx[i] = u;
-    vy[i] = v;
-    vz[i] = w;
-    x[i] += dt * u;
-    y[i] += dt * v;
-    z[i] += dt * w;
-    const double squared = u * u + v * v + w * w;
-    greatest = squared > greatest ? squared : greatest;
-    sum += squared;
-  }
-  return {greatest, sum};
-}
-
-template <bool gravity>
-void update_nodes(const NodeArguments& g, const NodeBlock* blocks, Index begin, Index end,
-                  kernel::Watch* watch) {
-  BlockForce f;
-  for (Index b = begin; b < end; ++b) {
-    const NodeBlock& block = blocks[b];
-    for (Index s = block.stretch_begin; s < block.stretch_end; ++s)
-      gather<gravity>(g, g.stretches[s], block.first, f);
-    add_loads(g, g.entry_begin[b], g.entry_begin[b + 1], block.first, f);
-    constrain(g, block, f);
-    watch[b] = move(g, block, f);
+    const V3 v = V3{old.vx, old.vy, old.vz} + kept;
+    g.vx[k.node] = v.x, g.vy[k.node] = v.y, g.vz[k.node] = v.z;
+    g.x[k.node] = old.x + g.dt * v.x, g.y[k.node] = old.y + g.dt * v.y, g.z[k.node] = old.z + g.dt * v.z;
   }
 }
 
 }  // namespace
 
 void fill_node_update(KernelTable& table) {
-  table.update_nodes[0] = update_nodes<false>;
-  table.update_nodes[1] = update_nodes<true>;
+  table.move_nodes[0][0] = move_nodes<false, false>;
+  table.move_nodes[0][1] = move_nodes<false, true>;
+  table.move_nodes[1][0] = move_nodes<true, false>;
+  table.move_nodes[1][1] = move_nodes<true, true>;
+  table.kick_nodes = kick_nodes;
+  table.load_nodes = load_nodes;
+  table.hold_before = hold_before;
+  table.hold_after = hold_after;
 }
 
 }  // namespace cinch::CINCH_ISA

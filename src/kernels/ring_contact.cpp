@@ -10,68 +10,30 @@
 // on a ring that cannot turn. Neighbouring elements report the same contact at their shared node: it is
 // counted once by inclusion and exclusion, sum over elements minus (degree - 1) times the contact of each
 // shared node, which is continuous in all positions.
-#include "kernels/contact_item.hpp"
+//
+// Pairs go through ring_lanes.hpp in batches. One whose nodes touch, or whose closest points need a branch of
+// their own, goes through one_pair, which is also the plain reference of the batches.
 #include "kernels/kernel_table.hpp"
-#include "kernels/segment_circle.hpp"
+#include "kernels/ring_lanes.hpp"
 
 namespace cinch::CINCH_ISA {
 namespace {
 
-using kernel::Candidate;
+using kernel::Pair;
 using kernel::RingArguments;
 using kernel::RingGeometry;
 using kernel::RingTally;
 
-// Where a ring is and how it moves.
-struct RingMotion {
-  V3 center, normal, velocity;
-  V3 turn;  // dN/dt before projection: (v_b - v_a) / L; zero for a ring with a node of its own
-  double inverse_length;
-  double host_share;  // sum of node_share over the host's nodes
-};
-
-inline RingMotion ring_motion(const RingArguments& g, const RingGeometry& ring) {
-  const auto& c = g.contact;
-  const V3 xa = at(c.x, c.y, c.z, ring.a), va = at(c.vx, c.vy, c.vz, ring.a);
-  if (ring.a == ring.b)
-    return {xa, {ring.normal[0], ring.normal[1], ring.normal[2]}, va, {0, 0, 0}, 0, c.node_share[ring.a]};
-  const V3 xb = at(c.x, c.y, c.z, ring.b), vb = at(c.vx, c.vy, c.vz, ring.b);
-  const V3 along = xb - xa;
-  const double length = norm(along);
-  const double inverse =
-      length > 0 ? 1 / length : 0.0;  // a host folded to a point keeps a zero normal: no contact
-  return {0.5 * (xa + xb),     inverse * along, 0.5 * (va + vb),
-          inverse * (vb - va), inverse,         c.node_share[ring.a] + c.node_share[ring.b]};
-}
-
-// Sums over one ring's contacts in one step.
-struct RingSum {
-  V3 on_ring{0, 0, 0};  // force, N
-  V3 couple{0, 0, 0};   // G, N m
-  double potential = 0, power = 0, couple_power = 0;
-  double host_use = 0, thread_use = 0;  // shares of the stable step: summed on the host, greatest on a thread
-  Index stiffest = -1;                  // element with that greatest share
-};
-
-// The contact's share on the ring's side: half the force to each end, and the couple's +-lever / L where it
-// is kept.
-inline double host_use(const RingArguments& g, const RingMotion& ring, double kappa, double lever) {
-  if (ring.inverse_length == 0) return kappa * ring.host_share;
-  const double turn = g.couple ? lever * ring.inverse_length : 0.0;
-  const double most = 0.5 + std::fabs(turn);  // of |n / 2 +- turn e|
-  return kappa * most * most * ring.host_share;
-}
-
 // Adds `weight` times the contact of the point at t; returns the law's result for the watch.
-inline ContactForce add_contact(const RingArguments& g, const RingMotion& ring, const RingGeometry& shape,
-                                const Candidate& c, const CirclePoint& point, double t, double weight,
-                                EndLoads& loads, RingSum& sum) {
+inline ContactForce add_contact(const RingArguments& g, const RingMotion& ring, const Pair& c,
+                                const CirclePoint& point, double t, double weight, EndLoads& loads,
+                                RingSum& sum) {
   const auto& k = g.contact;
   const V3 gap = point.p - point.q;
   // on the wire's centre line itself the thread is pushed towards the ring's axis
   const V3 n = point.distance > 0 ? (1 / point.distance) * gap : -1.0 * point.radial;
   const V3 velocity = blend(at(k.vx, k.vy, k.vz, c.a), at(k.vx, k.vy, k.vz, c.b), t);
-  const double lever = shape.radius * dot(n, ring.normal);
+  const double lever = ring.radius * dot(n, ring.normal);
   const double turning = lever * dot(point.radial, ring.turn);
   const double rate = -(dot(n, velocity - ring.velocity) + turning);
   const ContactForce law = contact_law(c.contact_distance - point.distance, rate, c.stiffness, k.alpha);
@@ -87,40 +49,30 @@ inline ContactForce add_contact(const RingArguments& g, const RingMotion& ring, 
 }
 
 // Takes off the share of an end node's own contact (count each contact once).
-inline void take_off_node(const RingArguments& g, const RingMotion& ring, const RingGeometry& shape,
-                          const Candidate& c, V3 place, double t, double weight, EndLoads& loads,
-                          RingSum& sum) {
+inline void take_off_node(const RingArguments& g, const RingMotion& ring, const Pair& c, V3 place, double t,
+                          double weight, EndLoads& loads, RingSum& sum) {
   if (weight == 0) return;
-  const CirclePoint point = point_circle(place, ring.center, ring.normal, shape.radius);
-  if (point.distance < c.contact_distance) add_contact(g, ring, shape, c, point, t, -weight, loads, sum);
+  const CirclePoint point = point_circle(place, ring.center, ring.normal, ring.radius);
+  if (point.distance < c.contact_distance) add_contact(g, ring, c, point, t, -weight, loads, sum);
 }
 
-// One candidate; returns what it puts on its ends.
-inline EndLoads candidate_contact(const RingArguments& g, const RingMotion& ring, const RingGeometry& shape,
-                                  const Candidate& c, RingSum& sum, RingTally& tally) {
+// One pair; returns the distance left to a contact.
+inline double one_pair(const RingArguments& g, const RingMotion& ring, const Pair& c, EndLoads& loads,
+                       RingSum& sum) {
   const auto& k = g.contact;
-  EndLoads loads;
   const V3 xa = at(k.x, k.y, k.z, c.a), xb = at(k.x, k.y, k.z, c.b);
-  if (segment_circle_lower_bound(xa, xb, ring.center, ring.normal, shape.radius) >= c.contact_distance)
-    return loads;
-  const CirclePoint point = g.golden ? segment_circle_golden(xa, xb, ring.center, ring.normal, shape.radius)
-                                     : segment_circle_exact(xa, xb, ring.center, ring.normal, shape.radius);
+  const CirclePoint point = g.golden ? segment_circle_golden(xa, xb, ring.center, ring.normal, ring.radius)
+                                     : segment_circle_exact(xa, xb, ring.center, ring.normal, ring.radius);
   const double penetration = c.contact_distance - point.distance;
-  if (!(penetration > 0)) return loads;
-  const ContactForce law = add_contact(g, ring, shape, c, point, point.t, 1, loads, sum);
-  take_off_node(g, ring, shape, c, xa, 0, c.weight_a, loads, sum);
-  take_off_node(g, ring, shape, c, xb, 1, c.weight_b, loads, sum);
-  tally.max_penetration = penetration > tally.max_penetration ? penetration : tally.max_penetration;
+  if (!(penetration > 0)) return -penetration;
+  const ContactForce law = add_contact(g, ring, c, point, point.t, 1, loads, sum);
+  take_off_node(g, ring, c, xa, 0, c.weight_a, loads, sum);
+  take_off_node(g, ring, c, xb, 1, c.weight_b, loads, sum);
   const double kappa = step_weight(k, law);
   const double lever =
-      shape.radius * dot(point.p - point.q, ring.normal) / (point.distance > 0 ? point.distance : 1.0);
-  sum.host_use += host_use(g, ring, kappa, lever);
-  const double use = thread_share(k, c, point.t, kappa);
-  if (use >= sum.thread_use) {
-    sum.thread_use = use;
-    sum.stiffest = c.element;
-  }
-  return loads;
+      ring.radius * dot(point.p - point.q, ring.normal) / (point.distance > 0 ? point.distance : 1.0);
+  note_use(sum, c, penetration, host_use(g, ring, kappa, lever), thread_share(k, c, point.t, kappa));
+  return -penetration;
 }
 
 // Peak, first contact and its first release.
@@ -139,33 +91,16 @@ inline void note_force(RingTally& tally, double force, double time) {
   }
 }
 
-inline void put_load(const kernel::ContactArguments& g, Index slot, V3 force) {
-  g.load_x[slot] = force.x;
-  g.load_y[slot] = force.y;
-  g.load_z[slot] = force.z;
-}
-
-// Forces on the host's ends, and what this step adds to the ring's tally.
-inline void finish_ring(const RingArguments& g, const RingMotion& ring, Index r, const RingSum& sum) {
+// What this step adds to the ring's tally.
+inline void book(const RingArguments& g, const RingMotion& ring, const RingSum& sum, V3 couple,
+                 RingTally& tally) {
   const auto& k = g.contact;
-  RingTally& tally = g.tallies[r];
-  const V3 couple = sum.couple - dot(sum.couple, ring.normal) * ring.normal;
-  const V3 turn = g.couple ? ring.inverse_length * couple : V3{0, 0, 0};
-  if (g.rings[r].a == g.rings[r].b) {
-    put_load(k, g.host_slot + 2 * r, sum.on_ring);
-    put_load(k, g.host_slot + 2 * r + 1, {0, 0, 0});
-  } else {
-    put_load(k, g.host_slot + 2 * r, 0.5 * sum.on_ring - turn);
-    put_load(k, g.host_slot + 2 * r + 1, 0.5 * sum.on_ring + turn);
-  }
   tally.force[0] = sum.on_ring.x;
   tally.force[1] = sum.on_ring.y;
   tally.force[2] = sum.on_ring.z;
   tally.potential = sum.potential;
   tally.dissipated += k.dt * sum.power;
-  const bool held =
-      g.rings[r].a == g.rings[r].b;  // a ring that cannot turn: its support takes the couple, without work
-  if (held || !g.couple) {
+  if (ring.held || !g.couple) {  // a ring that cannot turn: its support takes the couple, without work
     const V3 torque = cross(ring.normal, couple);
     tally.couple_work += k.dt * sum.couple_power;
     tally.couple_impulse[0] += k.dt * torque.x;
@@ -173,6 +108,7 @@ inline void finish_ring(const RingArguments& g, const RingMotion& ring, Index r,
     tally.couple_impulse[2] += k.dt * torque.z;
   }
   note_force(tally, norm(sum.on_ring), k.time);
+  if (sum.penetration > tally.max_penetration) tally.max_penetration = sum.penetration;
   const double share = sum.host_use + sum.thread_use;
   if (share > tally.stiffest) {
     tally.stiffest = share;
@@ -181,20 +117,77 @@ inline void finish_ring(const RingArguments& g, const RingMotion& ring, Index r,
   }
 }
 
-void ring_contacts(const RingArguments& g, Index begin, Index end) {
-  for (Index r = begin; r < end; ++r) {
-    if (g.candidate_begin[r] == g.candidate_begin[r + 1])
-      continue;  // its loads were zeroed when the list was made
+// Forces on the host's ends.
+inline void finish_ring(const RingArguments& g, Index r, const RingMotion& ring, const RingSum& sum,
+                        LoadWriter& out) {
+  const V3 couple = sum.couple - dot(sum.couple, ring.normal) * ring.normal;
+  if (RingTally* tally = g.tallies[r]) book(g, ring, sum, couple, *tally);
+  if (!sum.touched) return;
+  if (ring.held) return out.add(g.rings[r].a, sum.on_ring);
+  const V3 turn = g.couple ? ring.inverse_length * couple : V3{0, 0, 0};
+  out.add(g.rings[r].a, 0.5 * sum.on_ring - turn);
+  out.add(g.rings[r].b, 0.5 * sum.on_ring + turn);
+}
+
+// A ring that nothing is near to.
+inline void release(RingTally& tally) {
+  tally.force[0] = tally.force[1] = tally.force[2] = 0;
+  tally.potential = 0;
+  if (tally.state == 1) tally.state = 2;
+}
+
+// The pairs near[begin, end) of one ring that lie in lanes [0, end - begin) of a batch.
+inline void take_lanes(const RingArguments& g, const RingMotion& ring, const RingLanes& lanes,
+                       const Pair* pairs, const Index* near, Index begin, Index end, Index first_lane,
+                       double* gap, RingSum& sum, LoadWriter& out) {
+  for (Index i = begin; i < end; ++i) {
+    const Pair& c = pairs[near[i]];
+    const Index lane = first_lane + i - begin;
+    if (lanes.circle.hard.at[lane] > 0) {
+      EndLoads loads;
+      gap[i] = one_pair(g, ring, c, loads, sum);
+      if (!(gap[i] < 0)) continue;
+      sum.touched = true;
+      out.add(c.a, loads.a);
+      out.add(c.b, loads.b);
+      continue;
+    }
+    gap[i] = lanes.gap.at[lane];
+    if (!(gap[i] < 0)) continue;
+    take_lane(lanes, lane, c, sum);
+    out.add(c.a, {lanes.on_a.x[lane], lanes.on_a.y[lane], lanes.on_a.z[lane]});
+    out.add(c.b, {lanes.on_b.x[lane], lanes.on_b.y[lane], lanes.on_b.z[lane]});
+  }
+}
+
+Index ring_contacts(const RingArguments& g, const Pair* pairs, const Index* near, Index count, double* gap,
+                    kernel::Load* loads) {
+  LoadWriter out{loads};
+  RingLanes lanes;
+  Index next = 0, batch_begin = 0, batch_end = 0;
+  for (Index r = 0; r < g.ring_count; ++r) {
+    const Index begin = next;
+    while (next < count && pairs[near[next]].with == r) ++next;
+    if (begin == next) {
+      if (RingTally* tally = g.tallies[r]; tally != nullptr && (tally->state == 1 || tally->potential != 0))
+        release(*tally);
+      continue;
+    }
     const RingMotion ring = ring_motion(g, g.rings[r]);
     RingSum sum;
-    for (Index i = g.candidate_begin[r]; i < g.candidate_begin[r + 1]; ++i) {
-      const EndLoads loads =
-          candidate_contact(g, ring, g.rings[r], g.contact.candidates[i], sum, g.tallies[r]);
-      put_load(g.contact, 2 * i, loads.a);
-      put_load(g.contact, 2 * i + 1, loads.b);
+    for (Index i = begin; i < next;) {
+      if (i == batch_end) {  // the next batch of pairs, whatever their rings
+        batch_begin = i;
+        batch_end = count - i < lane_capacity ? count : i + lane_capacity;
+        fill_lanes(g, pairs, near + i, batch_end - i, lanes);
+      }
+      const Index end = next < batch_end ? next : batch_end;
+      take_lanes(g, ring, lanes, pairs, near, i, end, i - batch_begin, gap, sum, out);
+      i = end;
     }
-    finish_ring(g, ring, r, sum);
+    finish_ring(g, r, ring, sum, out);
   }
+  return static_cast<Index>(out.next - loads);
 }
 
 }  // namespace

@@ -10,23 +10,26 @@ namespace {
 
 constexpr std::size_t at(Index i) { return static_cast<std::size_t>(i); }
 
+constexpr double margin_lengths = 2;  ///< automatic margin over the mean element length of the finest set
+
 double automatic_margin(const Model& model) {
   double margin = std::numeric_limits<double>::infinity();
   for (const ContactSet& set : model.contact_sets) {
     double sum = 0;
     for (const Index e : set.elements) sum += model.rest_length[at(e)];
     if (!set.elements.empty())
-      margin = std::min(margin, 0.5 * sum / static_cast<double>(set.elements.size()));
+      margin = std::min(margin, margin_lengths * sum / static_cast<double>(set.elements.size()));
   }
   return margin;
 }
 
-kernel::Candidate candidate(const Model& model, const ContactSet& set, Index position, double other_radius,
-                            double curvature_radius, double other_compliance) {
+kernel::Pair pair_of(const Model& model, const ContactSet& set, Index position, Index with,
+                     double other_radius, double curvature_radius, double other_compliance) {
   const Index e = set.elements[at(position)];
   return {model.end_a[at(e)],
           model.end_b[at(e)],
           e,
+          with,
           model.radius[at(e)] + other_radius,
           plain::contact_stiffness(model.radius[at(e)], curvature_radius, model.compliance[at(e)],
                                    other_compliance),
@@ -35,10 +38,11 @@ kernel::Candidate candidate(const Model& model, const ContactSet& set, Index pos
 }
 
 // A sphere is an element without length: both ends are its node.
-kernel::Candidate candidate(const Model::Sphere& sphere, const Model::Ball& ball) {
+kernel::Pair pair_of(const Model::Sphere& sphere, Index with, const Model::Ball& ball) {
   return {sphere.node,
           sphere.node,
           kernel::sphere_label(sphere.node),
+          with,
           sphere.radius + ball.radius,
           plain::contact_stiffness(sphere.radius, ball.radius, sphere.compliance, ball.compliance),
           0,
@@ -50,11 +54,33 @@ Vec3 ring_center(const State& state, const kernel::RingGeometry& ring) {
   return 0.5 * Vec3(state.x[a] + state.x[b], state.y[a] + state.y[b], state.z[a] + state.z[b]);
 }
 
-// A ring without candidates touches nothing.
-void release(kernel::RingTally& tally) {
-  tally.force[0] = tally.force[1] = tally.force[2] = 0;
-  tally.potential = 0;
-  if (tally.state == 1) tally.state = 2;
+kernel::BallTally untouched() {
+  kernel::BallTally tally{};
+  tally.first_time = -1;
+  tally.stiffest_element = -1;
+  return tally;
+}
+
+// Tallies of pairs that are over as one, in their order; then one for each of the new pairs.
+void begin_tallies(std::vector<kernel::BallTally>& tallies, std::size_t pairs) {
+  kernel::BallTally sum = untouched();
+  for (const kernel::BallTally& t : tallies) {
+    sum.dissipated += t.dissipated;
+    for (int d = 0; d < 3; ++d) {
+      sum.impulse[d] += t.impulse[d];
+      sum.moment[d] += t.moment[d];
+    }
+    sum.max_penetration = std::max(sum.max_penetration, t.max_penetration);
+    if (t.first_time >= 0 && (sum.first_time < 0 || t.first_time < sum.first_time))
+      sum.first_time = t.first_time;
+    if (t.stiffest > sum.stiffest) {
+      sum.stiffest = t.stiffest;
+      sum.stiffest_time = t.stiffest_time;
+      sum.stiffest_element = t.stiffest_element;
+    }
+  }
+  tallies.assign(pairs + 1, untouched());
+  tallies.front() = sum;
 }
 
 }  // namespace
@@ -65,22 +91,14 @@ ContactList::ContactList(const Model& model, double margin)
 void ContactList::rebuild(const Model& model, State& state) {
   ++rebuilds_;
   for (std::size_t s = 0; s < trees_.size(); ++s) trees_[s].build(model, model.contact_sets[s], state);
-  candidates.clear();
-  find_ring_candidates(model, state);
-  find_ball_candidates(model, state);
-  lay_out_slots(model);
-  for (std::size_t b = 0; b < model.balls.size(); ++b) {
-    const Index chunks = (ball_begin[b + 1] - ball_begin[b] + ball_chunk - 1) / ball_chunk;
-    auto& tallies = state.balls[b];
-    kernel::BallTally untouched{};
-    untouched.first_time = -1;
-    untouched.stiffest_element = -1;
-    if (tallies.size() < at(chunks)) tallies.resize(at(chunks), untouched);
-    for (auto& tally : tallies) tally.potential = 0;
-  }
+  pairs.clear();
+  find_ring_pairs(model, state);
+  find_ball_pairs(model, state);
+  for (std::size_t b = 0; b < model.balls.size(); ++b)
+    begin_tallies(state.balls[b], at(ball_begin[b + 1] - ball_begin[b]));
 }
 
-void ContactList::find_ring_candidates(const Model& model, State& state) {
+void ContactList::find_ring_pairs(const Model& model, const State& state) {
   ring_begin.assign(1, 0);
   for (std::size_t r = 0; r < model.rings.size(); ++r) {
     const auto set_number = at(model.ring_set[r]);
@@ -90,38 +108,29 @@ void ContactList::find_ring_candidates(const Model& model, State& state) {
     trees_[set_number].query(model, set, state, ring_center(state, ring), ring.reach + margin_, found_,
                              pairs_tested_);
     for (const Index position : found_)
-      candidates.push_back(candidate(model, set, position, model.ring_wire_radius[r],
-                                     model.ring_wire_radius[r], model.ring_compliance[r]));
-    ring_begin.push_back(static_cast<Index>(candidates.size()));
-    if (found_.empty()) release(state.rings[r]);
+      pairs.push_back(pair_of(model, set, position, static_cast<Index>(r), model.ring_wire_radius[r],
+                              model.ring_wire_radius[r], model.ring_compliance[r]));
+    ring_begin.push_back(static_cast<Index>(pairs.size()));
   }
 }
 
-void ContactList::find_ball_candidates(const Model& model, const State& state) {
-  ball_begin.assign(1, static_cast<Index>(candidates.size()));
-  for (const Model::Ball& ball : model.balls) {
+void ContactList::find_ball_pairs(const Model& model, const State& state) {
+  ball_begin.assign(1, static_cast<Index>(pairs.size()));
+  for (std::size_t b = 0; b < model.balls.size(); ++b) {
+    const Model::Ball& ball = model.balls[b];
+    const auto with = static_cast<Index>(b);
     const ContactSet& set = model.contact_sets[at(ball.set)];
     found_.clear();
     trees_[at(ball.set)].query(model, set, state, ball.center, ball.radius + set.thickest + margin_, found_,
                                pairs_tested_);
     for (const Index position : found_)
-      candidates.push_back(candidate(model, set, position, ball.radius, ball.radius, ball.compliance));
+      pairs.push_back(pair_of(model, set, position, with, ball.radius, ball.radius, ball.compliance));
     for (const Model::Sphere& sphere : ball.spheres)
       if (distance_to_element(state, sphere.node, sphere.node, ball.center) <=
           ball.radius + sphere.radius + margin_)
-        candidates.push_back(candidate(sphere, ball));
-    ball_begin.push_back(static_cast<Index>(candidates.size()));
+        pairs.push_back(pair_of(sphere, with, ball));
+    ball_begin.push_back(static_cast<Index>(pairs.size()));
   }
-}
-
-void ContactList::lay_out_slots(const Model& model) {
-  host_slot = 2 * static_cast<Index>(candidates.size());
-  std::vector<Index> node_of_slot;
-  for (const kernel::Candidate& c : candidates) node_of_slot.insert(node_of_slot.end(), {c.a, c.b});
-  for (const kernel::RingGeometry& ring : model.rings)
-    node_of_slot.insert(node_of_slot.end(), {ring.a, ring.b});
-  for (auto* load : {&load_x, &load_y, &load_z}) load->assign(node_of_slot.size(), 0.0);
-  gather.rebuild(node_of_slot, static_cast<Index>(model.node_blocks.size()));
 }
 
 }  // namespace cinch

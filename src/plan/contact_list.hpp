@@ -1,37 +1,33 @@
-// The candidates of rings and balls, their loads on nodes, and how long the list stays good.
+// The broadphase's pairs: which elements and masses may touch which rings and balls until a margin of motion
+// is used up. In the user's numbers; each thread takes from it what concerns its own nodes.
 #pragma once
 #include <cstdint>
 #include <vector>
 
 #include "plan/broadphase.hpp"
-#include "store/force_reduction.hpp"
 
 namespace cinch {
 
 class ContactList {
  public:
-  /// `margin` in m; 0: half the mean unstretched element length of the finest set.
+  /// `margin` in m; 0: some unstretched element lengths of the finest set.
   ContactList(const Model& model, double margin);
 
-  /// Finds all candidates anew; tallies of rings that have lost their candidates are released.
+  /// Finds all pairs anew. The tallies of the balls' old pairs are summed up into one, those of new pairs
+  /// begin.
   void rebuild(const Model& model, State& state);
 
   double margin() const { return margin_; }
   std::int64_t rebuilds() const { return rebuilds_; }
   std::int64_t pairs_tested() const { return pairs_tested_; }
 
-  // candidates: those of the rings in order, then those of the balls
-  std::vector<kernel::Candidate> candidates;
-  std::vector<Index> ring_begin;                 ///< ring + 1
-  std::vector<Index> ball_begin;                 ///< ball + 1
-  Index host_slot = 0;                           ///< slots: 2 for each candidate, then 2 for each ring's host
-  AlignedVector<double> load_x, load_y, load_z;  ///< slot, N
-  LoadGather gather;
+  std::vector<kernel::Pair> pairs;  ///< those of the rings in order, then those of the balls; each by element
+  std::vector<Index> ring_begin;    ///< ring + 1
+  std::vector<Index> ball_begin;    ///< ball + 1
 
  private:
-  void find_ring_candidates(const Model& model, State& state);
-  void find_ball_candidates(const Model& model, const State& state);
-  void lay_out_slots(const Model& model);
+  void find_ring_pairs(const Model& model, const State& state);
+  void find_ball_pairs(const Model& model, const State& state);
 
   double margin_;
   std::vector<BoxTree> trees_;  ///< contact set

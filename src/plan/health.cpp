@@ -12,13 +12,12 @@ constexpr std::size_t at(Index i) { return static_cast<std::size_t>(i); }
 
 }  // namespace
 
-void check_contacts(const Preparation& preparation, const Model& model, const State& state) {
+void check_contacts(const Preparation& preparation, const State& state) {
   const auto check = [&](const char* kind, const std::string& name, const auto& tally) {
     if (!(tally.stiffest > 1)) return;
     const Index stiffest = tally.stiffest_element;
-    const std::string what = stiffest < 0
-                                 ? node_label(preparation.assembly, kernel::sphere_label(stiffest))
-                                 : element_label(preparation.assembly, model.user_element[at(stiffest)]);
+    const std::string what = stiffest < 0 ? node_label(preparation.assembly, kernel::sphere_label(stiffest))
+                                          : element_label(preparation.assembly, stiffest);
     char text[500];
     std::snprintf(
         text, sizeof text,

@@ -7,7 +7,7 @@ namespace cinch {
 
 /// Throws NumericalError when a contact has needed more than the elements leave of the stable step: it would
 /// grow without bound.
-void check_contacts(const Preparation& preparation, const Model& model, const State& state);
+void check_contacts(const Preparation& preparation, const State& state);
 
 /// Throws NumericalError that names the first node without a finite speed, else the fastest.
 [[noreturn]] void report_runaway(const Preparation& preparation, const Model& model, const State& state,

@@ -27,15 +27,16 @@ void observe_elements(const Model& model, const State& state, Observation& out, 
     force[at(b)] -= item.per_length * r;
     const double stretch = r.norm() - model.rest_length[at(e)];
     if (stretch > 0) out.energy.elastic += 0.5 * model.stiffness[at(e)] * stretch * stretch;
-    out.tension[at(model.user_element[at(e)])] = item.tension;
-    out.strain[at(model.user_element[at(e)])] = stretch / model.rest_length[at(e)];
+    out.tension[at(e)] = item.tension;
+    out.strain[at(e)] = stretch / model.rest_length[at(e)];
   }
 }
 
-void observe_contacts(const ContactList& contacts, const State& state, Observation& out) {
-  for (const kernel::LoadEntry& entry : contacts.gather.entries)
-    out.contact_force[at(entry.node)] += Vec3(
-        contacts.load_x[at(entry.slot)], contacts.load_y[at(entry.slot)], contacts.load_z[at(entry.slot)]);
+void observe_contacts(const Stepper& stepper, const State& state, Observation& out) {
+  for (Index i = 0; i < stepper.load_count(); ++i) {
+    const kernel::Load& load = stepper.loads()[i];
+    out.contact_force[at(load.node)] += Vec3(load.x, load.y, load.z);
+  }
   for (const kernel::RingTally& ring : state.rings) out.energy.contact += ring.potential;
   for (const auto& ball : state.balls)
     for (const kernel::BallTally& tally : ball) out.energy.contact += tally.potential;
@@ -76,10 +77,10 @@ void observe_nodes(const Model& model, const State& state, double half_dt, std::
 
 }  // namespace
 
-double dissipated_by_dampers(const State& state) {
+double dissipated_by_dampers(const State& state, double dt) {
   double sum = 0;
   for (const double lane : state.dissipated) sum += lane;
-  return sum;
+  return dt * sum;
 }
 
 double dissipated_by_contacts(const State& state) {
@@ -104,14 +105,14 @@ Observation observe(Stepper& stepper, State& state, bool half_step) {
   std::vector<Vec3> force(at(model.nodes), Vec3::Zero());
   out.contact_force.assign(at(model.nodes), Vec3::Zero());
   observe_elements(model, state, out, force);
-  observe_contacts(stepper.contacts(), state, out);
+  observe_contacts(stepper, state, out);
   for (std::size_t i = 0; i < force.size(); ++i) {
     force[i] += out.contact_force[i];
     if (model.has_gravity) force[i] += model.mass[i] * model.gravity;
   }
   observe_nodes(model, state, half_step ? 0.5 * stepper.plan().dt : 0, force, out);
   observe_rings(model, state, out);
-  out.energy.dissipated_damper = dissipated_by_dampers(state);
+  out.energy.dissipated_damper = dissipated_by_dampers(state, stepper.plan().dt);
   out.energy.dissipated_contact = dissipated_by_contacts(state);
   out.energy.booked_couple = couple_work(state);
   return out;

@@ -32,7 +32,7 @@ struct Observation {
 Observation observe(Stepper& stepper, State& state, bool half_step = true);
 
 /// Sum of each term of the ledger that the kernels keep, J.
-double dissipated_by_dampers(const State& state);
+double dissipated_by_dampers(const State& state, double dt);
 double dissipated_by_contacts(const State& state);
 double couple_work(const State& state);
 

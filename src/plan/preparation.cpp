@@ -71,8 +71,7 @@ Preparation prepare(const Scene& scene) {
   for (const Phase& phase : p.phases)
     if (phase.bound.step < p.stable_step) {
       p.stable_step = phase.bound.step;
-      p.limited_by =
-          element_label(p.assembly, phase.model.user_element[static_cast<std::size_t>(phase.bound.element)]);
+      p.limited_by = element_label(p.assembly, phase.bound.element);
       if (p.phases.size() > 1) p.limited_by += " while " + phase.name;
     }
   p.dt = scene.time.step > 0 ? scene.time.step : automatic_step(scene, p.stable_step);

@@ -93,8 +93,9 @@ void Simulation::enter_phase(std::size_t number) {
     for (std::size_t s = 0; s < stage_count; ++s) seconds_[s] += stepper_->seconds()[s];
   phase_ = number;
   const Phase& p = phase();
-  stepper_ =
-      std::make_unique<Stepper>(p.model, p.plan, node_share(p.model, p.bound, preparation_.dt), threads_);
+  std::vector<double> share;
+  if (p.plan.contacts()) share = node_share(p.model, p.bound, preparation_.dt);
+  stepper_ = std::make_unique<Stepper>(p.model, p.plan, std::move(share), threads_);
 }
 
 // Central differences begin with velocities half a step back: v(-1/2) = v(0) - dt/2 a(0).
@@ -117,6 +118,7 @@ void Simulation::start() {
     state_.vy[i] -= half * begin.acceleration[i].y();
     state_.vz[i] -= half * begin.acceleration[i].z();
   }
+  drop_negative_zeros(state_);
   ledger_.open(begin, m, state_, work);
   const Frame first = frame();
   node_start_ = first.position;
@@ -137,6 +139,7 @@ void Simulation::close() {
   separate(preparation_.assembly, state_);
   const Momentum free = half_step_momentum(model(), state_);
   hold_supports(model(), state_);
+  drop_negative_zeros(state_);
   const Momentum held = half_step_momentum(model(), state_);
   const Observation separated = observe(*stepper_, state_);
   ledger_.book_closing(before, after, laid, separated, state_, before_model, model());
@@ -159,7 +162,7 @@ void Simulation::advance_to(std::int64_t target) {
 
 void Simulation::check_health() {
   if (!scene_.time.allow_unstable)
-    check_contacts(preparation_, model(), state_);  // first: an impact too hard is what makes a node run away
+    check_contacts(preparation_, state_);  // first: an impact too hard is what makes a node run away
   if (!stepper_->healthy()) report_runaway(preparation_, model(), state_, scene_.time.speed_limit);
 }
 

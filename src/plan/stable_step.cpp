@@ -9,7 +9,8 @@ namespace {
 
 // Inverse masses with zero at fixed nodes.
 std::vector<double> mobility(const Model& model) {
-  std::vector<double> inverse(model.inverse_mass.begin(), model.inverse_mass.end());
+  std::vector<double> inverse;
+  for (const double mass : model.mass) inverse.push_back(1 / mass);
   for (const kernel::Constraint& c : model.constraints)
     if (c.ax == 0 && c.ay == 0 && c.az == 0) inverse[static_cast<std::size_t>(c.node)] = 0;
   return inverse;
@@ -44,9 +45,9 @@ StableStep stable_step(const Model& model) {
   return out;
 }
 
-AlignedVector<double> node_share(const Model& model, const StableStep& bound, double step) {
+std::vector<double> node_share(const Model& model, const StableStep& bound, double step) {
   const std::vector<double> inverse = mobility(model);
-  AlignedVector<double> used(inverse.size());
+  std::vector<double> used(inverse.size());
   for (std::size_t e = 0; e < bound.element_a.size(); ++e) {
     const double usage = (bound.element_a[e] * step + bound.element_b[e]) * step;
     for (const Index end : {model.end_a[e], model.end_b[e]}) {

@@ -3,9 +3,8 @@
 namespace cinch {
 
 const char* stage_name(StageId stage) {
-  static constexpr const char* names[] = {"axial forces",    "ring contact",    "target contact",
-                                          "gather and move", "threads meeting", "broadphase",
-                                          "observe",         "output"};
+  static constexpr const char* names[] = {"contacts",   "axial forces", "gather and move", "threads meeting",
+                                          "broadphase", "observe",      "output"};
   return names[static_cast<std::size_t>(stage)];
 }
 
@@ -23,6 +22,7 @@ StepPlan plan_steps(const Scene& scene, const Model& model, double dt) {
   plan.alpha_target = scene.contact.alpha_target;
   plan.margin = scene.contact.margin;
   plan.speed_limit = scene.time.speed_limit;
+  plan.gravity_acceleration = model.gravity;
   return plan;
 }
 
@@ -31,7 +31,8 @@ std::vector<StageInfo> StepPlan::stages(const Model& model) const {
   std::vector<StageInfo> list;
   list.push_back({"axial forces", true,
                   count(static_cast<std::size_t>(model.elements), "elements in ") +
-                      count(model.spans.size(), "runs, springs") + (damped ? " and dampers" : "")});
+                      count(model.topology.runs.size(), "runs and ") +
+                      count(model.topology.links.size(), "links, springs") + (damped ? " and dampers" : "")});
   list.push_back({"dampers", damped, damped ? "inside axial forces" : "no material has damping"});
   list.push_back({"ring contact", rings,
                   rings
@@ -44,13 +45,12 @@ std::vector<StageInfo> StepPlan::stages(const Model& model) const {
   list.push_back({"target contact", balls, balls ? count(model.balls.size(), "balls") : "no target"});
   list.push_back(
       {"broadphase", contacts(), contacts() ? "only when the margin may be used up" : "no contacts"});
+  list.push_back({"watch on speeds", contacts(), contacts() ? "inside gather and move" : "no contacts"});
   list.push_back({"gravity", gravity, gravity ? "inside gather and move" : "no gravity"});
   list.push_back({"supports", !model.constraints.empty(),
                   model.constraints.empty() ? "no fixed or guided node"
                                             : count(model.constraints.size(), "fixed or guided nodes")});
-  list.push_back({"gather and move", true,
-                  count(static_cast<std::size_t>(model.nodes), "nodes in ") +
-                      count(model.node_blocks.size(), "blocks")});
+  list.push_back({"gather and move", true, count(static_cast<std::size_t>(model.nodes), "nodes")});
   list.push_back(
       {"energy ledger", ledger, ledger ? "dissipation summed every step" : "output.ledger = false"});
   return list;

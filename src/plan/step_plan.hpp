@@ -1,6 +1,5 @@
 // The stages of a step: which of them this scene needs, and why the others are left out.
 #pragma once
-#include <array>
 #include <string>
 #include <vector>
 
@@ -9,17 +8,7 @@
 namespace cinch {
 
 /// In running order.
-enum class StageId {
-  axial_forces,
-  ring_contact,
-  target_contact,
-  gather_and_move,
-  meeting,
-  broadphase,
-  observe,
-  output,
-  count
-};
+enum class StageId { contacts, axial_forces, gather_and_move, meeting, broadphase, observe, output, count };
 
 constexpr std::size_t stage_count = static_cast<std::size_t>(StageId::count);
 
@@ -33,10 +22,13 @@ struct StepPlan {
   double dt = 0;  ///< s
   bool damped = false, ledger = false, gravity = false, rings = false, balls = false;
   bool couple = true, golden = false;
-  double alpha_ring = 0, alpha_target = 0;  ///< s/m
-  double margin = 0;                        ///< m, 0: automatic
-  double speed_limit = 0;                   ///< m/s
+  double alpha_ring = 0, alpha_target = 0;   ///< s/m
+  double margin = 0;                         ///< m, 0: automatic
+  double speed_limit = 0;                    ///< m/s
+  Vec3 gravity_acceleration = Vec3::Zero();  ///< m/s^2
 
+  /// Only scenes with contacts watch the greatest speed in every step: it tells how long a list of pairs is
+  /// good.
   bool contacts() const { return rings || balls; }
   std::vector<StageInfo> stages(const Model& model) const;
 };

@@ -2,248 +2,159 @@
 
 #include <omp.h>
 
-#include <chrono>
+#include <algorithm>
 #include <cmath>
 
 #include "base/error.hpp"
+#include "plan/contact_shares.hpp"
+#include "plan/partition.hpp"
 
 namespace cinch {
 namespace {
 
-constexpr std::int64_t timed_every =
-    64;  // a clock reading costs as much as a small kernel: time few steps, scale up
-
-// The stretch of `count` items that belongs to `thread` of `threads`.
-struct Share {
-  Index begin, end;
-  Share(std::size_t count, int thread, int threads)
-      : begin(
-            static_cast<Index>(count * static_cast<std::size_t>(thread) / static_cast<std::size_t>(threads))),
-        end(static_cast<Index>(count * (static_cast<std::size_t>(thread) + 1) /
-                               static_cast<std::size_t>(threads))) {}
-};
-
-double now() {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
-}
-
-// Adds the time between two ticks to a stage, on timed steps only.
-class StageClock {
- public:
-  StageClock(bool timed, std::array<double, stage_count>& seconds) : timed_(timed), seconds_(seconds) {
-    if (timed_) last_ = now();
-  }
-  void tick(StageId stage) {
-    if (!timed_) return;
-    const double t = now();
-    seconds_[static_cast<std::size_t>(stage)] += static_cast<double>(timed_every) * (t - last_);
-    last_ = t;
-  }
-
- private:
-  bool timed_;
-  std::array<double, stage_count>& seconds_;
-  double last_ = 0;
-};
+constexpr std::size_t at(Index i) { return static_cast<std::size_t>(i); }
 
 }  // namespace
 
-Stepper::Stepper(const Model& model, const StepPlan& plan, AlignedVector<double> node_share, int threads)
+Stepper::Stepper(const Model& model, const StepPlan& plan, std::vector<double> node_share, int threads)
     : model_(&model),
       plan_(plan),
       threads_(threads),
       node_share_(std::move(node_share)),
-      contacts_(model, plan.margin),
-      watch_(model.node_blocks.size()) {
-  for (auto* f : {&fx_, &fy_, &fz_}) f->assign(static_cast<std::size_t>(model.elements), 0.0);
-  contacts_.gather.rebuild({}, static_cast<Index>(model.node_blocks.size()));
+      contacts_(model, plan.margin) {
+  if (threads_ == 1) pieces_.push_back(std::make_unique<Piece>(model, plan_, node_share_));
 }
 
-// Points the kernels' arguments at the state and at lists that may have moved.
-void Stepper::bind(State& s) {
-  const Model& m = *model_;
-  axial_ = {s.x.data(),           s.y.data(),  s.z.data(),         s.vx.data(),
-            s.vy.data(),          s.vz.data(), m.stiffness.data(), m.damping.data(),
-            m.rest_length.data(), fx_.data(),  fy_.data(),         fz_.data(),
-            s.dissipated.data(),  plan_.dt};
-  const kernel::ContactArguments contact{s.x.data(),
-                                         s.y.data(),
-                                         s.z.data(),
-                                         s.vx.data(),
-                                         s.vy.data(),
-                                         s.vz.data(),
-                                         node_share_.data(),
-                                         contacts_.candidates.data(),
-                                         contacts_.load_x.data(),
-                                         contacts_.load_y.data(),
-                                         contacts_.load_z.data(),
-                                         plan_.alpha_ring,
-                                         0,
-                                         plan_.dt,
-                                         plan_.dt};
-  ring_ = {contact,      m.rings.data(), contacts_.ring_begin.data(), s.rings.data(), contacts_.host_slot,
-           plan_.golden, plan_.couple};
-  node_ = {s.x.data(),
-           s.y.data(),
-           s.z.data(),
-           s.vx.data(),
-           s.vy.data(),
-           s.vz.data(),
-           m.mass.data(),
-           m.inverse_mass.data(),
-           fx_.data(),
-           fy_.data(),
-           fz_.data(),
-           m.gather.stretches.data(),
-           m.gather.sources.data(),
-           contacts_.load_x.data(),
-           contacts_.load_y.data(),
-           contacts_.load_z.data(),
-           contacts_.gather.entries.data(),
-           contacts_.gather.begin.data(),
-           m.constraints.data(),
-           s.reactions.data(),
-           {m.gravity.x(), m.gravity.y(), m.gravity.z()},
-           plan_.dt};
-}
-
-void Stepper::forces(State& state, double time, double booked_dt, int thread) {
-  const Model& m = *model_;
-  StageClock clock(thread == 0 && booked_dt > 0 && state.step % timed_every == 0, seconds_);
-  const Share blocks(m.element_blocks.size(), thread, threads_);
-  kernel::AxialArguments axial = axial_;
-  axial.dt = booked_dt;
-  kernels().axial_forces[plan_.damped][plan_.ledger](axial, m.element_blocks.data(), m.spans.data(),
-                                                     blocks.begin, blocks.end);
-  clock.tick(StageId::axial_forces);
-  if (plan_.rings) {
-    const Share rings(m.rings.size(), thread, threads_);
-    kernel::RingArguments ring = ring_;
-    ring.contact.time = time;
-    ring.contact.dt = booked_dt;
-    kernels().ring_contacts(ring, rings.begin, rings.end);
-    clock.tick(StageId::ring_contact);
+// Deeper ghosts let threads meet less often, as long as they are few beside a thread's own nodes.
+int Stepper::sweep_depth(const std::vector<std::vector<Index>>& shares) const {
+  if (plan_.contacts()) return 1;
+  for (int depth = 4; depth > 1; depth /= 2) {
+    bool few = true;
+    for (const auto& own : shares)
+      few = few && 8 * Numbering::of(own, model_->topology, model_->nodes, depth).ghosts() <=
+                       static_cast<Index>(own.size());
+    if (few) return depth;
   }
-  if (plan_.balls) {
-    ball_forces(state, time, booked_dt, thread);
-    clock.tick(StageId::target_contact);
+  return 1;
+}
+
+void Stepper::make_pieces(const std::vector<std::vector<Index>>& shares) {
+  const int depth = sweep_depth(shares);
+  owner_.assign(at(model_->nodes), 0);
+  for (std::size_t p = 0; p < shares.size(); ++p)
+    for (const Index node : shares[p]) owner_[at(node)] = static_cast<int>(p);
+  pieces_.resize(shares.size());
+  // each thread makes its own piece: memory lies with who touches it first
+#pragma omp parallel for num_threads(threads_) schedule(static, 1)
+  for (int p = 0; p < threads_; ++p)
+    pieces_[at(p)] = std::make_unique<Piece>(*model_, plan_, node_share_, shares[at(p)], depth);
+}
+
+void Stepper::share_out(State& state) {
+  if (plan_.contacts() && !contacts_valid_) renew_contacts(state);
+  make_pieces(partition(*model_, state, contacts_, threads_));
+  hand_out_contacts(state);
+}
+
+void Stepper::hand_out_contacts(State& state) {
+  if (plan_.contacts()) {
+#pragma omp parallel for num_threads(threads_) schedule(static, 1)
+    for (int p = 0; p < threads_; ++p)
+      hand_out(*model_, contacts_, state, owner_, p, node_share_, *pieces_[at(p)]);
   }
-}
-
-void Stepper::ball_forces(State& state, double time, double booked_dt, int thread) {
-  for (std::size_t b = 0; b < model_->balls.size(); ++b) {
-    const Model::Ball& ball = model_->balls[b];
-    kernel::BallArguments g{
-        ring_.contact, {ball.center.x(), ball.center.y(), ball.center.z()}, ball.radius, 0};
-    g.contact.alpha = plan_.alpha_target;
-    g.contact.time = time;
-    g.contact.dt = booked_dt;
-    const Index begin = contacts_.ball_begin[b], end = contacts_.ball_begin[b + 1];
-    const auto chunks = static_cast<std::size_t>((end - begin + ball_chunk - 1) / ball_chunk);
-    const Share mine(chunks, thread, threads_);
-    for (Index chunk = mine.begin; chunk < mine.end; ++chunk) {
-      const Index first = begin + chunk * ball_chunk;
-      kernels().ball_contacts(g, first, std::min(first + ball_chunk, end),
-                              state.balls[b][static_cast<std::size_t>(chunk)]);
-    }
-  }
-}
-
-void Stepper::update(int thread) {
-  const Share blocks(model_->node_blocks.size(), thread, threads_);
-  kernels().update_nodes[plan_.gravity](node_, model_->node_blocks.data(), blocks.begin, blocks.end,
-                                        watch_.data());
-}
-
-Stepper::Verdict Stepper::watch(double& margin_used) const {
-  double greatest = 0, sum = 0;
-  for (const kernel::Watch& w : watch_) {
-    greatest = w.greatest > greatest ? w.greatest : greatest;
-    sum += w.sum;
-  }
-  if (!std::isfinite(sum) || greatest > plan_.speed_limit * plan_.speed_limit) return Verdict::unhealthy;
-  if (!plan_.contacts()) return Verdict::go_on;
-  // two items approach each other by at most twice the greatest speed
-  margin_used += 2 * plan_.dt * std::sqrt(greatest);
-  return margin_used < contacts_.margin() ? Verdict::go_on : Verdict::renew_contacts;
-}
-
-void Stepper::meet() const {
-  if (threads_ == 1) return;
-#pragma omp barrier
-}
-
-// The steps of one thread; every thread returns the same number and verdict.
-std::int64_t Stepper::run_thread(State& state, std::int64_t steps, int thread, Verdict& verdict) {
-  double margin_used = margin_used_;
-  const std::int64_t first = state.step;
-  std::int64_t done = 0;
-  verdict = Verdict::go_on;
-  while (done < steps && verdict == Verdict::go_on) {
-    forces(state, static_cast<double>(first + done) * plan_.dt, plan_.dt, thread);
-    StageClock clock(thread == 0 && (first + done) % timed_every == 0, seconds_);
-    meet();
-    clock.tick(StageId::meeting);
-    update(thread);
-    if (thread == 0) state.step = first + done + 1;
-    clock.tick(StageId::gather_and_move);
-    meet();
-    clock.tick(StageId::meeting);
-    verdict = watch(margin_used);
-    ++done;
-  }
-  meet();
-  if (thread == 0) margin_used_ = margin_used;
-  return done;
-}
-
-// One parallel region over as many steps as possible.
-std::int64_t Stepper::run(State& state, std::int64_t steps, Verdict& verdict) {
-  if (threads_ == 1) return run_thread(state, steps, 0, verdict);
-  std::int64_t done = 0;
-#pragma omp parallel num_threads(threads_)
-  {
-    Verdict mine = Verdict::go_on;
-    // fewer threads than shares would leave work undone; all threads see the same number and none enters the
-    // steps
-    const bool enough = omp_get_num_threads() == threads_;
-    const std::int64_t my_done = enough ? run_thread(state, steps, omp_get_thread_num(), mine) : -1;
-    if (omp_get_thread_num() == 0) {
-      done = my_done;
-      verdict = mine;
-    }
-  }
-  if (done < 0) throw Error(ExitCode::internal, "error: OpenMP gave fewer threads than it did at the start");
-  return done;
+  exchange_.set_up(pieces_, owner_, plan_.contacts());
 }
 
 void Stepper::renew_contacts(State& state) {
-  const double begin = now();
+  const double begin = clock_seconds();
   contacts_.rebuild(*model_, state);
-  margin_used_ = 0;
+  release_lonely_rings(contacts_, state);
+  motion_ = 0;
   contacts_valid_ = true;
-  bind(state);
-  add_seconds(StageId::broadphase, now() - begin);
+  NearContacts& all = threads_ == 1 ? pieces_[0]->contacts() : looked_at_;
+  all.renew(cinch::all_contacts(*model_, contacts_, state), contacts_.margin());
+  if (threads_ > 1 && !pieces_.empty()) hand_out_contacts(state);
+  seconds_[static_cast<std::size_t>(StageId::broadphase)] += clock_seconds() - begin;
+}
+
+void Stepper::judge(double greatest, Progress& p) const {
+  // two items approach each other by at most twice the greatest speed
+  p.motion += 2 * plan_.dt * std::sqrt(greatest);
+  if (!(p.motion < contacts_.margin())) p.verdict = Verdict::renew_contacts;
+  if (greatest > plan_.speed_limit * plan_.speed_limit) p.verdict = Verdict::unhealthy;
+}
+
+double Stepper::move(Piece& piece, double time, int steps, double motion, StageClock& clock) {
+  if (plan_.contacts()) return piece.step(time, motion, clock);
+  piece.sweep(steps, clock);
+  return 0;
+}
+
+// The steps of one thread; every thread returns the same. `from` is what the run begins with.
+Stepper::Progress Stepper::run_thread(State& state, std::int64_t steps, int thread, Progress from) {
+  Piece& piece = *pieces_[at(thread)];
+  piece.take(state);
+  const std::int64_t first = state.step;
+  StageSeconds unread{};  // of the other threads
+  while (from.done < steps && from.verdict == Verdict::go_on) {
+    StageClock clock(from.windows++, thread == 0 ? seconds_ : unread);
+    const int stretch = static_cast<int>(std::min<std::int64_t>(piece.levels(), steps - from.done));
+    const double time = static_cast<double>(first + from.done) * plan_.dt;
+    double greatest = move(piece, time, stretch, from.motion, clock);
+    from.done += stretch;
+    if (threads_ > 1) {
+      exchange_.post(thread, piece, greatest);
+      greatest = exchange_.meet(thread, piece, greatest);
+      clock.tick(StageId::meeting);
+    }
+    if (plan_.contacts()) judge(greatest, from);
+  }
+  piece.give(state);
+  return from;
+}
+
+// One parallel region over as many steps as possible.
+Stepper::Progress Stepper::run(State& state, std::int64_t steps) {
+  const Progress from{0, windows_, motion_, Verdict::go_on};
+  if (threads_ == 1) return run_thread(state, steps, 0, from);
+  Progress reached = from;
+#pragma omp parallel num_threads(threads_)
+  {
+    // fewer threads than pieces would wait for ever; all see the same number and none enters the steps
+    const bool enough = omp_get_num_threads() == threads_;
+    const Progress mine = enough ? run_thread(state, steps, omp_get_thread_num(), from) : from;
+    if (omp_get_thread_num() == 0) reached = mine;
+  }
+  if (reached.done == 0)
+    throw Error(ExitCode::internal, "error: OpenMP gave fewer threads than it did at the start");
+  return reached;
 }
 
 void Stepper::advance(State& state, std::int64_t steps) {
-  bind(state);
+  if (steps > 0 && pieces_.empty()) share_out(state);
   while (steps > 0 && healthy_) {
     if (plan_.contacts() && !contacts_valid_) renew_contacts(state);
-    Verdict verdict = Verdict::go_on;
-    steps -= run(state, steps, verdict);
-    if (verdict == Verdict::unhealthy) healthy_ = false;
-    if (verdict == Verdict::renew_contacts) contacts_valid_ = false;
+    const Progress reached = run(state, steps);
+    state.step += reached.done;
+    steps -= reached.done;
+    windows_ = reached.windows;
+    motion_ = reached.motion;
+    if (reached.verdict == Verdict::unhealthy) healthy_ = false;
+    if (reached.verdict == Verdict::renew_contacts) contacts_valid_ = false;
   }
 }
 
 void Stepper::evaluate(State& state) {
-  bind(state);
-  if (plan_.contacts() && !contacts_valid_) renew_contacts(state);
-  const int threads = threads_;
-  threads_ = 1;  // a single evaluation is not worth a parallel region
-  forces(state, static_cast<double>(state.step) * plan_.dt, 0, 0);
-  threads_ = threads;
+  if (!plan_.contacts()) return;
+  if (!contacts_valid_) renew_contacts(state);
+  const double time = static_cast<double>(state.step) * plan_.dt;
+  if (threads_ == 1) {
+    pieces_[0]->take(state);
+    return pieces_[0]->evaluate_contacts(time, motion_);
+  }
+  looked_at_.evaluate({state.x.data(), state.y.data(), state.z.data(), state.vx.data(), state.vy.data(),
+                       state.vz.data(), node_share_.data()},
+                      plan_, time, 0, motion_);
 }
 
 }  // namespace cinch

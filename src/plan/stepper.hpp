@@ -1,76 +1,81 @@
 // Moves a state through time: the one place that knows about threads.
 // clang-format off
 //
-// One step, in order (each thread takes its share of the blocks and rings):
-//   forces   axial forces of element blocks, contacts of rings, contacts of balls
-//   meet
-//   update   gather to node blocks, supports, kick, drift
-//   meet
-//   watch    every thread reads the blocks' greatest speeds and decides alike: go on, or leave the parallel region
-//            because the broadphase margin may be used up or a speed is out of bounds
-// Shares are stretches of blocks whose edges the model alone decides, so the bits do not depend on the threads.
+// Each thread has its piece of the scene. One step of a piece, in order:
+//   contacts  those that are near, from places and speeds at the step's begin
+//   block by block: element forces, then gather, kick and drift of the block's nodes
+//   forces of contacts on their nodes, supports
+//   post      what other pieces have as ghosts, and the greatest speed
+//   meet      wait for their posts; every thread decides alike: go on, or leave the parallel region because the list
+//             of pairs may be used up or a speed is out of bounds
+// Without contacts a piece may do several steps between two meetings. What two pieces both need is computed by both,
+// in the same order as on one thread, so the bits do not depend on the threads.
 // clang-format on
 #pragma once
-#include <array>
 #include <cstdint>
 
-#include "kernels/kernel_table.hpp"
 #include "plan/contact_list.hpp"
-#include "plan/step_plan.hpp"
+#include "plan/exchange.hpp"
 
 namespace cinch {
 
 class Stepper {
  public:
   /// `model` must outlive the stepper; `node_share` as stable_step.hpp makes it.
-  Stepper(const Model& model, const StepPlan& plan, AlignedVector<double> node_share, int threads);
+  Stepper(const Model& model, const StepPlan& plan, std::vector<double> node_share, int threads);
 
-  /// Advances by `steps` steps. Stops early only when a speed is not finite or above the limit: see
+  /// Advances by `steps` steps. In scenes with contacts it stops early when a speed is above the limit: see
   /// healthy().
   void advance(State& state, std::int64_t steps);
 
-  /// Computes all forces of the state as it stands and books nothing; leaves them in the arrays below.
+  /// Computes the contact forces of the state as it stands and books nothing.
   void evaluate(State& state);
+  /// Contact forces on nodes, as last evaluated, in the user's numbers.
+  const kernel::Load* loads() const { return all_contacts().loads(); }
+  Index load_count() const { return all_contacts().load_count(); }
 
-  /// False once a node's speed was not finite or above the limit.
+  /// False once a node's speed was above the limit.
   bool healthy() const { return healthy_; }
   /// Seconds of each stage so far, scaled up from sampled steps.
-  const std::array<double, stage_count>& seconds() const { return seconds_; }
-  void add_seconds(StageId stage, double s) { seconds_[static_cast<std::size_t>(stage)] += s; }
+  const StageSeconds& seconds() const { return seconds_; }
 
   const Model& model() const { return *model_; }
   const StepPlan& plan() const { return plan_; }
   const ContactList& contacts() const { return contacts_; }
-  const double* force_x() const { return fx_.data(); }  ///< element: force on its end a, N
-  const double* force_y() const { return fy_.data(); }
-  const double* force_z() const { return fz_.data(); }
+  int threads() const { return threads_; }
 
  private:
   enum class Verdict { go_on, renew_contacts, unhealthy };
+  struct Progress {
+    std::int64_t done, windows;  ///< steps of this run; stretches between two meetings since the beginning
+    double motion;               ///< m, of the margin, since the list of pairs was made
+    Verdict verdict;
+  };
 
-  void bind(State& state);
-  void forces(State& state, double time, double booked_dt, int thread);
-  void ball_forces(State& state, double time, double booked_dt, int thread);
-  void update(int thread);
-  void meet() const;
-  Verdict watch(double& margin_used) const;
-  std::int64_t run(State& state, std::int64_t steps, Verdict& verdict);
-  std::int64_t run_thread(State& state, std::int64_t steps, int thread, Verdict& verdict);
+  const NearContacts& all_contacts() const { return threads_ == 1 ? pieces_[0]->contacts() : looked_at_; }
+  void share_out(State& state);
+  void make_pieces(const std::vector<std::vector<Index>>& shares);
+  int sweep_depth(const std::vector<std::vector<Index>>& shares) const;
   void renew_contacts(State& state);
+  void hand_out_contacts(State& state);
+  void judge(double greatest, Progress& progress) const;
+  Progress run(State& state, std::int64_t steps);
+  Progress run_thread(State& state, std::int64_t steps, int thread, Progress from);
+  double move(Piece& piece, double time, int steps, double motion, StageClock& clock);
 
   const Model* model_;
   StepPlan plan_;
   int threads_;
-  AlignedVector<double> node_share_;
+  std::vector<double> node_share_;
   ContactList contacts_;
-  AlignedVector<double> fx_, fy_, fz_;
-  std::vector<kernel::Watch> watch_;
-  kernel::AxialArguments axial_{};
-  kernel::RingArguments ring_{};
-  kernel::NodeArguments node_{};
-  double margin_used_ = 0;
+  std::vector<std::unique_ptr<Piece>> pieces_;  ///< thread; of several threads made at the first advance
+  std::vector<int> owner_;                      ///< node: its piece (several threads)
+  Exchange exchange_;                           ///< (several threads)
+  NearContacts looked_at_;                      ///< all contacts, for looks at the state (several threads)
+  double motion_ = 0;
   bool contacts_valid_ = false, healthy_ = true;
-  std::array<double, stage_count> seconds_{};
+  std::int64_t windows_ = 0;
+  StageSeconds seconds_{};
 };
 
 }  // namespace cinch

@@ -48,9 +48,11 @@ class Assembler {
       if (ring.host == RingHost::node) ring_node(ring);
     out_.nodes_before = node_count();
     out_.elements_before = element_count();
-    for (const Mechanism& mechanism : scene_.mechanisms) add_split_masses(mechanism);
+    // split masses on which a closing thread hangs are numbered with it, as its ends
     for (const Thread& thread : scene_.threads)
       if (thread.closing()) add_closing_thread(thread);
+    for (const Mechanism& mechanism : scene_.mechanisms)
+      for (const char side : {'a', 'b'}) split_mass(mechanism, side);
     for (const Ring& ring : scene_.rings) add_ring(ring);
     for (const BallTarget& ball : scene_.targets) add_ball(ball);
     superpose_closing_masses();
@@ -252,20 +254,25 @@ class Assembler {
     return at;
   }
 
-  // Masses a and b: until the closing time they sit on the launcher.
-  void add_split_masses(const Mechanism& mechanism) {
+  // Mass a or b, which sits on the launcher until the closing time; made when first asked for.
+  Index split_mass(const Mechanism& mechanism, char side) {
+    const std::string name = "mechanism." + mechanism.name + "." + side;
+    if (const Index known = named_node(name); known >= 0) return known;
     const Part& towing = *find_part(PartKind::mechanism, mechanism.name);
     const Index launcher = towing.nodes.back(), part = static_cast<Index>(&towing - out_.parts.data());
-    const auto add = [&](const std::string& side, const Vec3& jump) {
-      const Index at = add_node(node(launcher).position, node(launcher).velocity);
-      node(at).mass = mechanism.split_mass;
-      out_.lays.push_back({at, launcher, launcher, 0, Vec3::Zero(), jump});
-      const std::string name = "mechanism." + mechanism.name + "." + side;
-      out_.named.push_back({name, at, mechanism.split_mass});
-      add_sphere(mechanism.split_sphere, at, name, part);
-    };
-    add("a", mechanism.separation_a);
-    add("b", mechanism.separation_b);
+    const Index at = add_node(node(launcher).position, node(launcher).velocity);
+    node(at).mass = mechanism.split_mass;
+    out_.lays.push_back({at, launcher, launcher, 0, Vec3::Zero(),
+                         side == 'a' ? mechanism.separation_a : mechanism.separation_b});
+    out_.named.push_back({name, at, mechanism.split_mass});
+    add_sphere(mechanism.split_sphere, at, name, part);
+    return at;
+  }
+
+  Index named_node(const std::string& name) const {
+    for (const NamedNode& named : out_.named)
+      if (named.name == name) return named.node;
+    return -1;
   }
 
   // The parts that a closing thread is laid along, as one chain of nodes with unstretched distances.
@@ -443,9 +450,11 @@ class Assembler {
       const Part* part = find_part(PartKind::net, at.name);
       const Index place = part ? NetPattern(net_named(at.name, {})).place(at.place) : -1;
       if (place >= 0) return part->nodes.front() + place;
-    } else if (at.kind == "mechanism" && (at.place == "a" || at.place == "b" || at.place == "launcher")) {
-      for (const NamedNode& named : out_.named)
-        if (named.name == reference) return named.node;
+    } else if (at.kind == "mechanism" && (at.place == "a" || at.place == "b")) {
+      for (const Mechanism& mechanism : scene_.mechanisms)
+        if (mechanism.name == at.name && out_.nodes_before > 0) return split_mass(mechanism, at.place[0]);
+    } else if (at.kind == "mechanism" && at.place == "launcher") {
+      if (const Index known = named_node(reference); known >= 0) return known;
     } else if (at.kind == "ring") {
       for (const Ring& ring : scene_.rings)
         if (ring.name == at.name && ring.host == RingHost::node) return ring_node(ring);

@@ -3,7 +3,6 @@
 #include <algorithm>
 
 #include "base/error.hpp"
-#include "store/force_reduction.hpp"
 #include "store/topology.hpp"
 
 namespace cinch {
@@ -14,27 +13,27 @@ constexpr std::size_t at(Index i) { return static_cast<std::size_t>(i); }
 void fill_nodes(Model& model, const Assembly& assembly, Stage stage) {
   const bool before = stage == Stage::before_closing && assembly.has_closing();
   model.nodes = before ? assembly.nodes_before : static_cast<Index>(assembly.nodes.size());
+  model.mass.reserve(at(model.nodes));
   for (Index i = 0; i < model.nodes; ++i) {
     const AssemblyNode& node = assembly.nodes[at(i)];
     const double mass = before ? node.mass_before : node.mass;
     if (!(mass > 0)) throw CaseError("error: node " + std::to_string(i) + " has no mass");
     model.mass.push_back(mass);
-    model.inverse_mass.push_back(1 / mass);
-    if (node.support == Support::fixed) model.constraints.push_back({i, 0, 0, 0});
+    if (node.support == Support::fixed) model.constraints.push_back({i, 0, 0, 0, mass});
     if (node.support == Support::guided)
-      model.constraints.push_back({i, node.axis.x(), node.axis.y(), node.axis.z()});
+      model.constraints.push_back({i, node.axis.x(), node.axis.y(), node.axis.z(), mass});
   }
 }
 
-std::vector<kernel::Span> fill_elements(Model& model, const Assembly& assembly, Stage stage) {
+void fill_elements(Model& model, const Assembly& assembly, Stage stage) {
   const bool before = stage == Stage::before_closing && assembly.has_closing();
   model.elements = before ? assembly.elements_before : static_cast<Index>(assembly.elements.size());
-  std::vector<std::array<Index, 2>> ends;
-  for (Index e = 0; e < model.elements; ++e)
-    ends.push_back({assembly.elements[at(e)].a, assembly.elements[at(e)].b});
-  Topology topology = cut_runs(ends, model.nodes);
-  for (const Index user : topology.user_element) {
-    const AssemblyElement& e = assembly.elements[at(user)];
+  for (auto* field : {&model.stiffness, &model.damping, &model.rest_length, &model.radius, &model.compliance})
+    field->reserve(at(model.elements));
+  model.end_a.reserve(at(model.elements));
+  model.end_b.reserve(at(model.elements));
+  for (Index i = 0; i < model.elements; ++i) {
+    const AssemblyElement& e = assembly.elements[at(i)];
     model.stiffness.push_back(e.stiffness);
     model.damping.push_back(e.damping);
     model.rest_length.push_back(e.rest_length);
@@ -44,8 +43,6 @@ std::vector<kernel::Span> fill_elements(Model& model, const Assembly& assembly, 
     model.compliance.push_back(e.compliance);
     model.damped = model.damped || e.damping > 0;
   }
-  model.user_element = std::move(topology.user_element);
-  return topology.runs;
 }
 
 ContactSet make_set(const Model& model, const Assembly& assembly, const std::vector<Index>& parts,
@@ -56,7 +53,7 @@ ContactSet make_set(const Model& model, const Assembly& assembly, const std::vec
   for (const Index p : parts) wanted[at(p)] = true;
   std::vector<Index> degree(at(model.nodes));
   for (Index e = 0; e < model.elements; ++e) {
-    if (!wanted[at(assembly.elements[at(model.user_element[at(e)])].part)]) continue;
+    if (!wanted[at(assembly.elements[at(e)].part)]) continue;
     set.elements.push_back(e);
     set.thickest = std::max(set.thickest, model.radius[at(e)]);
     ++degree[at(model.end_a[at(e)])];
@@ -134,9 +131,8 @@ void fill_balls(Model& model, const Assembly& assembly, bool count_once) {
 Model build_model(const Assembly& assembly, const Scene& scene, Stage stage) {
   Model model;
   fill_nodes(model, assembly, stage);
-  const std::vector<kernel::Span> runs = fill_elements(model, assembly, stage);
-  cut_element_blocks(runs, model.spans, model.element_blocks);
-  cut_node_blocks(model.nodes, runs, model.constraints, model.node_blocks, model.gather);
+  fill_elements(model, assembly, stage);
+  model.topology = cut_runs(model.end_a, model.end_b);
   const bool count_once = scene.contact.shared_node == SharedNode::once;
   fill_rings(model, assembly, count_once);
   fill_balls(model, assembly, count_once);

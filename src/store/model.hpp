@@ -1,5 +1,6 @@
-// Everything about a scene that does not change while it is stepped, as structure of arrays.
-// Nodes keep the user's numbering; elements are grouped into runs and keep a map back.
+// Everything about a scene that does not change while it is stepped, as structure of arrays in the user's
+// numbering. What a thread steps through, in the order that suits the machine, is made from it: see
+// force_reduction.hpp.
 #pragma once
 #include <string>
 #include <vector>
@@ -7,16 +8,16 @@
 #include "base/aligned.hpp"
 #include "kernels/arguments.hpp"
 #include "scene/assembly.hpp"
-#include "store/force_reduction.hpp"
+#include "store/topology.hpp"
 
 namespace cinch {
 
 // clang-format off: tables
-/// The elements that one group of rings or one ball can touch, in ascending store order.
+/// The elements that one group of rings or one ball can touch, in ascending order.
 struct ContactSet {
   // field                             meaning                                               unit   shape
   std::vector<Index> parts;      // parts of the assembly: what makes two sets the same
-  std::vector<Index> elements;   // store numbers, ascending
+  std::vector<Index> elements;   // ascending
   double thickest = 0;           // greatest thread radius                                m
   std::vector<double> weight_a;  // (degree - 1) / degree of end a within the set         -      elements
   std::vector<double> weight_b;  // ... of end b                                          -      elements
@@ -26,23 +27,16 @@ struct Model {
   Index nodes = 0, elements = 0;
 
   // field                             meaning                                               unit   shape
-  AlignedVector<double> mass;          // lumped mass, eq. (2)                               kg     node
-  AlignedVector<double> inverse_mass;  //                                                    1/kg   node
+  std::vector<double> mass;         // lumped mass, eq. (2)                                kg     node
+  std::vector<double> stiffness;    // k                                                   N/m    element
+  std::vector<double> damping;      // c                                                   N s/m  element
+  std::vector<double> rest_length;  // l0                                                  m      element
+  std::vector<Index> end_a, end_b;  // end nodes                                                  element
+  std::vector<double> radius;       // of the thread                                       m      element
+  std::vector<double> compliance;   // h of eq. (8)                                        1/Pa   element
+  std::vector<kernel::Constraint> constraints;  // fixed and guided nodes, ascending
 
-  AlignedVector<double> stiffness;    // k                                                  N/m    element
-  AlignedVector<double> damping;      // c                                                  N s/m  element
-  AlignedVector<double> rest_length;  // l0                                                 m      element
-  std::vector<Index> end_a, end_b;    // end nodes (cold: set-up, messages)                        element
-  std::vector<double> radius;         // of the thread                                      m      element
-  std::vector<double> compliance;     // h of eq. (8)                                       1/Pa   element
-  std::vector<Index> user_element;    // store number -> user's number                             element
-
-  // what each block of elements computes and each block of nodes gathers
-  std::vector<kernel::Span> spans;
-  std::vector<kernel::ElementBlock> element_blocks;
-  std::vector<kernel::NodeBlock> node_blocks;
-  ElementGather gather;
-  std::vector<kernel::Constraint> constraints;
+  Topology topology;  // the elements as runs and links
 
   // contact
   std::vector<ContactSet> contact_sets;
@@ -64,6 +58,9 @@ struct Model {
   bool damped = false;  // some element has a damper
   Vec3 gravity = Vec3::Zero();
   bool has_gravity = false;
+
+  /// Rows of the damper ledger: one for each grain of nodes.
+  Index ledger_rows() const { return (nodes + kernel::grain - 1) / kernel::grain; }
 };
 // clang-format on
 

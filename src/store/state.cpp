@@ -9,13 +9,19 @@ namespace cinch {
 State::State(const Model& model) {
   for (const NodeField& field : node_fields)
     (this->*field.values).assign(static_cast<std::size_t>(model.nodes), 0.0);
-  dissipated.assign(model.element_blocks.size() * kernel::lanes, 0.0);
+  dissipated.assign(static_cast<std::size_t>(model.ledger_rows() * kernel::lanes), 0.0);
   kernel::RingTally untouched{};
   untouched.first_time = untouched.peak_time = -1;
   untouched.stiffest_element = -1;
   rings.assign(model.rings.size(), untouched);
   balls.resize(model.balls.size());
   reactions.assign(model.constraints.size(), kernel::Reaction{});
+}
+
+// A velocity that never was -0 never becomes it: sums of forces may differ in the sign of their zeros.
+void drop_negative_zeros(State& state) {
+  for (auto* field : {&state.vx, &state.vy, &state.vz})
+    for (double& v : *field) v += 0.0;
 }
 
 State initial_state(const Model& model, const Assembly& assembly) {

@@ -7,24 +7,25 @@
 
 namespace cinch {
 
-constexpr Index ball_chunk =
-    32;  ///< candidates on a ball that share one tally; depends on nothing but the list
-
 struct State {
   std::int64_t step = 0;  ///< positions are those of time step * dt, velocities of half a step earlier
 
   AlignedVector<double> x, y, z;     ///< node, m
   AlignedVector<double> vx, vy, vz;  ///< node, m/s, at (step - 1/2) dt
 
-  AlignedVector<double> dissipated;                   ///< element block x lanes, J: by the elements' dampers
-  std::vector<kernel::RingTally> rings;               ///< ring
-  std::vector<std::vector<kernel::BallTally>> balls;  ///< ball, chunk of candidates
-  std::vector<kernel::Reaction> reactions;            ///< constraint
+  AlignedVector<double> dissipated;      ///< ledger row x lanes, W: damper power summed over the steps
+  std::vector<kernel::RingTally> rings;  ///< ring
+  std::vector<std::vector<kernel::BallTally>>
+      balls;                                ///< ball: of pairs that are over, then of each present pair
+  std::vector<kernel::Reaction> reactions;  ///< constraint
 
   /// Allocates for `model`; all zero, tallies as never touched.
   explicit State(const Model& model);
   State() = default;
 };
+
+/// Turns velocities of -0 into +0.
+void drop_negative_zeros(State& state);
 
 /// A state as the assembly describes it at t = 0 (velocities not yet half a step back).
 State initial_state(const Model& model, const Assembly& assembly);

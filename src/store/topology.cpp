@@ -1,72 +1,80 @@
 #include "store/topology.hpp"
 
 #include <algorithm>
-#include <numeric>
 
 namespace cinch {
 namespace {
 
-// Elements by their first node, as address and index lists.
-struct ByFirstNode {
-  std::vector<std::size_t> begin;
-  std::vector<Index> element;
+constexpr Index shortest_run = 4;  ///< fewer elements cost less as links than as a loop
+constexpr Index widest_gap = 8;    ///< void slots that cost less than the start of another loop
 
-  ByFirstNode(const std::vector<std::array<Index, 2>>& elements, Index nodes)
-      : begin(static_cast<std::size_t>(nodes) + 2), element(elements.size()) {
-    for (const auto& e : elements) ++begin[static_cast<std::size_t>(e[0]) + 1];
-    std::partial_sum(begin.begin(), begin.end(), begin.begin());
-    std::vector<std::size_t> next(begin);
-    for (std::size_t e = 0; e < elements.size(); ++e)
-      element[next[static_cast<std::size_t>(elements[e][0])]++] = static_cast<Index>(e);
-  }
+// An element by the distance of its nodes and its lower node; `layer` counts elements that join the same two.
+struct Place {
+  Index offset, a, element, layer;
 };
+
+std::vector<Place> sorted_places(const std::vector<Index>& end_a, const std::vector<Index>& end_b) {
+  std::vector<Place> places;
+  places.reserve(end_a.size());
+  for (std::size_t e = 0; e < end_a.size(); ++e) {
+    const auto [low, high] = std::minmax(end_a[e], end_b[e]);
+    places.push_back({high - low, low, static_cast<Index>(e), 0});
+  }
+  const auto before = [](const Place& l, const Place& r) {
+    if (l.offset != r.offset) return l.offset < r.offset;
+    if (l.layer != r.layer) return l.layer < r.layer;
+    return l.a != r.a ? l.a < r.a : l.element < r.element;
+  };
+  std::sort(places.begin(), places.end(), before);
+  bool layered = false;
+  for (std::size_t i = 1; i < places.size(); ++i)
+    if (places[i].offset == places[i - 1].offset && places[i].a == places[i - 1].a) {
+      places[i].layer = places[i - 1].layer + 1;
+      layered = true;
+    }
+  if (layered) std::sort(places.begin(), places.end(), before);
+  return places;
+}
+
+// The stretch [first, last) of places that one run takes: same offset, gaps no wider than what it already
+// has.
+std::size_t end_of_run(const std::vector<Place>& places, std::size_t first) {
+  std::size_t last = first + 1;
+  for (; last < places.size(); ++last) {
+    const Place &here = places[last], &before = places[last - 1];
+    if (here.offset != before.offset || here.layer != before.layer) break;
+    const Index gap = here.a - before.a - 1;
+    if (gap > std::min(widest_gap, static_cast<Index>(last - first))) break;
+  }
+  return last;
+}
 
 }  // namespace
 
-Topology cut_runs(const std::vector<std::array<Index, 2>>& elements, Index nodes) {
-  const ByFirstNode lookup(elements, nodes);
-  std::vector<bool> taken(elements.size());
-  const auto find = [&](Index a, Index b) -> Index {
-    if (a >= nodes) return -1;
-    const auto node = static_cast<std::size_t>(a);
-    for (std::size_t i = lookup.begin[node]; i < lookup.begin[node + 1]; ++i) {
-      const auto e = static_cast<std::size_t>(lookup.element[i]);
-      if (!taken[e] && elements[e][1] == b) return lookup.element[i];
-    }
-    return -1;
-  };
+Topology cut_runs(const std::vector<Index>& end_a, const std::vector<Index>& end_b) {
+  const std::vector<Place> places = sorted_places(end_a, end_b);
   Topology out;
-  out.user_element.reserve(elements.size());
-  for (std::size_t first = 0; first < elements.size(); ++first) {
-    if (taken[first]) continue;
-    kernel::Span run{static_cast<Index>(out.user_element.size()), 0, elements[first][0], elements[first][1]};
-    for (Index e = static_cast<Index>(first); e >= 0; e = find(run.a + run.count, run.b + run.count)) {
-      taken[static_cast<std::size_t>(e)] = true;
-      out.user_element.push_back(e);
-      ++run.count;
+  out.slot_element.reserve(end_a.size() + end_a.size() / 16);
+  for (std::size_t first = 0; first < places.size();) {
+    const std::size_t last = end_of_run(places, first);
+    const Place& begin = places[first];
+    if (static_cast<Index>(last - first) < shortest_run) {
+      for (std::size_t i = first; i < last; ++i)
+        out.links.push_back({places[i].a, places[i].a + places[i].offset, places[i].element});
+    } else {
+      const auto slot = static_cast<Index>(out.slot_element.size());
+      const Index count = places[last - 1].a - begin.a + 1;
+      out.runs.push_back({slot, count, begin.a, begin.offset, static_cast<Index>(out.runs.size())});
+      out.slot_element.resize(out.slot_element.size() + static_cast<std::size_t>(count), -1);
+      for (std::size_t i = first; i < last; ++i)
+        out.slot_element[static_cast<std::size_t>(slot + places[i].a - begin.a)] = places[i].element;
     }
-    out.runs.push_back(run);
+    first = last;
   }
+  std::sort(out.links.begin(), out.links.end(), [](const LinkEnds& l, const LinkEnds& r) {
+    return l.a != r.a ? l.a < r.a : l.element < r.element;
+  });
   return out;
-}
-
-void cut_element_blocks(const std::vector<kernel::Span>& runs, std::vector<kernel::Span>& spans,
-                        std::vector<kernel::ElementBlock>& blocks) {
-  Index room = 0;  // elements that the open block can still take
-  for (const kernel::Span& run : runs) {
-    for (Index done = 0; done < run.count;) {
-      if (room == 0) {
-        const auto here = static_cast<Index>(spans.size());
-        blocks.push_back({here, here});
-        room = kernel::block_size;
-      }
-      const Index count = std::min(room, run.count - done);
-      spans.push_back({run.element + done, count, run.a + done, run.b + done});
-      blocks.back().span_end = static_cast<Index>(spans.size());
-      done += count;
-      room -= count;
-    }
-  }
 }
 
 }  // namespace cinch

@@ -1,25 +1,32 @@
-// Cuts any graph of elements into runs: stretches whose end nodes rise by one, which load contiguously.
+// Cuts any graph of elements into runs: stretches whose end nodes rise by one, which load contiguously. What
+// is too short for a run is a link.
 #pragma once
-#include <array>
 #include <vector>
 
-#include "kernels/arguments.hpp"
+#include "base/index.hpp"
 
 namespace cinch {
 
-struct Topology {
-  std::vector<Index> user_element;  ///< store number -> user's number
-  std::vector<kernel::Span>
-      runs;  ///< element + k joins a + k and b + k; together they cover the elements in order
+/// Slots [slot, slot + count): slot + k joins nodes a + k and a + k + offset, offset > 0. A slot may be void:
+/// no element, so that one run bridges small gaps.
+struct Run {
+  Index slot, count, a, offset;
+  Index origin;  ///< number of the run in the whole scene's topology
 };
 
-/// Runs in the order of the user's elements: each begins with the first element not yet taken and goes on as
-/// long as an element (a + 1, b + 1) is there.
-Topology cut_runs(const std::vector<std::array<Index, 2>>& elements, Index nodes);
+/// A single element.
+struct LinkEnds {
+  Index a, b;  ///< a < b
+  Index element;
+};
 
-/// Cuts runs into spans of at most `kernel::block_size` elements and groups them into blocks of at most that
-/// many. The edges depend on the model alone, never on the number of threads.
-void cut_element_blocks(const std::vector<kernel::Span>& runs, std::vector<kernel::Span>& spans,
-                        std::vector<kernel::ElementBlock>& blocks);
+struct Topology {
+  std::vector<Run> runs;            ///< by offset, then by node; slots rise without gaps
+  std::vector<Index> slot_element;  ///< slot: the user's number of its element, -1 where void
+  std::vector<LinkEnds> links;      ///< by first node
+};
+
+/// Every element lies in one run or is one link; its end a is the lower of its two nodes.
+Topology cut_runs(const std::vector<Index>& end_a, const std::vector<Index>& end_b);
 
 }  // namespace cinch

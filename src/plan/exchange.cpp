@@ -1,0 +1,104 @@
+#include "plan/exchange.hpp"
+
+#include <algorithm>
+#include <thread>
+
+namespace cinch {
+namespace {
+
+constexpr std::size_t at(int i) { return static_cast<std::size_t>(i); }
+
+constexpr int patient_spins =
+    4096;  ///< some microseconds; longer waits mean that the other thread has no core
+
+// Tells the processor that this is a wait.
+inline void relax() {
+#if defined(__x86_64__)
+  __builtin_ia32_pause();
+#elif defined(__aarch64__)
+  asm volatile("yield");
+#endif
+}
+
+void wait_for(const std::atomic<std::int64_t>& round, std::int64_t wanted) {
+  for (int spin = 0; round.load(std::memory_order_acquire) < wanted; ++spin)
+    if (spin < patient_spins) relax();
+    else std::this_thread::yield();
+}
+
+}  // namespace
+
+void Exchange::set_up(const std::vector<std::unique_ptr<Piece>>& pieces, const std::vector<int>& owner,
+                      bool everyone) {
+  const auto count = pieces.size();
+  while (posts_.size() < count) posts_.push_back(std::make_unique<Post>());
+  sent_.clear();
+  sent_.resize(count);
+  received_.assign(count, {});
+  partners_.assign(count, {});
+  for (std::size_t receiver = 0; receiver < count; ++receiver) {
+    const std::vector<Index> ghosts = pieces[receiver]->ghosts(), places = pieces[receiver]->ghost_places();
+    std::vector<Channel*> from_sender(count, nullptr);
+    for (std::size_t g = 0; g < ghosts.size(); ++g) {
+      const int sender = owner[at(ghosts[g])];
+      Channel*& channel = from_sender[at(sender)];
+      if (channel == nullptr) {
+        sent_[at(sender)].push_back(std::make_unique<Channel>());
+        channel = sent_[at(sender)].back().get();
+        channel->sender = sender;
+        channel->receiver = static_cast<int>(receiver);
+        received_[receiver].push_back(channel);
+      }
+      channel->from.push_back(pieces[at(sender)]->local(ghosts[g]));
+      channel->to.push_back(places[g]);
+    }
+  }
+  for (std::size_t p = 0; p < count; ++p) {
+    for (const auto& channel : sent_[p]) {
+      for (auto& box : channel->box) box.assign(6 * channel->from.size(), 0.0);
+      partners_[p].push_back(channel->receiver);
+    }
+    for (const Channel* channel : received_[p]) partners_[p].push_back(channel->sender);
+    if (everyone)
+      for (std::size_t q = 0; q < count; ++q) partners_[p].push_back(static_cast<int>(q));
+    std::sort(partners_[p].begin(), partners_[p].end());
+    partners_[p].erase(std::unique(partners_[p].begin(), partners_[p].end()), partners_[p].end());
+    std::erase(partners_[p], static_cast<int>(p));
+  }
+}
+
+void Exchange::post(int p, Piece& piece, double greatest) {
+  Post& mine = *posts_[at(p)];
+  const std::int64_t round = mine.round.load(std::memory_order_relaxed) + 1;
+  const auto side = static_cast<std::size_t>(round & 1);
+  for (const auto& channel : sent_[at(p)]) {
+    const std::size_t nodes = channel->from.size();
+    for (std::size_t f = 0; f < 6; ++f) {
+      const double* const field = piece.field(f);
+      double* const box = channel->box[side].data() + f * nodes;
+      for (std::size_t k = 0; k < nodes; ++k) box[k] = field[channel->from[k]];
+    }
+  }
+  mine.greatest[side] = greatest;
+  mine.round.store(round, std::memory_order_release);
+}
+
+double Exchange::meet(int p, Piece& piece, double greatest) {
+  const std::int64_t round = posts_[at(p)]->round.load(std::memory_order_relaxed);
+  const auto side = static_cast<std::size_t>(round & 1);
+  for (const int q : partners_[at(p)]) {
+    wait_for(posts_[at(q)]->round, round);
+    greatest = std::max(greatest, posts_[at(q)]->greatest[side]);
+  }
+  for (const Channel* channel : received_[at(p)]) {
+    const std::size_t nodes = channel->to.size();
+    for (std::size_t f = 0; f < 6; ++f) {
+      double* const field = piece.field(f);
+      const double* const box = channel->box[side].data() + f * nodes;
+      for (std::size_t k = 0; k < nodes; ++k) field[channel->to[k]] = box[k];
+    }
+  }
+  return greatest;
+}
+
+}  // namespace cinch

@@ -1,0 +1,47 @@
+// How the pieces of a scene tell each other what they have moved: one meeting a step, without a barrier.
+//
+// After a step a thread copies those of its nodes that others have as ghosts into mailboxes and posts the
+// number of the round; the others wait for that post and take what is theirs. Mailboxes and posts exist
+// twice: who posts round r has seen round r - 1 of all that read from it, so nobody can still be reading
+// round r - 2.
+#pragma once
+#include <atomic>
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "plan/piece.hpp"
+
+namespace cinch {
+
+class Exchange {
+ public:
+  /// Lays out the mailboxes; `owner` by node. Call again when ghosts have changed. `everyone`: each thread
+  /// waits for all others and learns their greatest speeds; else only for those that it shares nodes with.
+  void set_up(const std::vector<std::unique_ptr<Piece>>& pieces, const std::vector<int>& owner,
+              bool everyone);
+
+  /// Hands over what thread `p` has moved, and the greatest squared speed that it saw.
+  void post(int p, Piece& piece, double greatest);
+  /// Waits for the others' posts of the same round and takes over ghosts; the greatest squared speed of all.
+  double meet(int p, Piece& piece, double greatest);
+
+ private:
+  struct alignas(128) Post {
+    std::atomic<std::int64_t> round{0};
+    double greatest[2]{};
+  };
+  // Nodes that one piece has from another: node k goes from from[k] to to[k], both local.
+  struct Channel {
+    int sender = 0, receiver = 0;
+    std::vector<Index> from, to;
+    AlignedVector<double> box[2];  // 6 x nodes
+  };
+
+  std::vector<std::unique_ptr<Post>> posts_;
+  std::vector<std::vector<std::unique_ptr<Channel>>> sent_;  ///< by sender
+  std::vector<std::vector<Channel*>> received_;              ///< by receiver
+  std::vector<std::vector<int>> partners_;                   ///< whom a thread waits for
+};
+
+}  // namespace cinch

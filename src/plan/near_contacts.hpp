@@ -1,0 +1,60 @@
+// The contacts of one thread's nodes: which of the broadphase's pairs are worth a look in this step, and the
+// forces of those that touch.
+//
+// Two surfaces approach each other by at most twice the greatest speed, so a pair with a gap need not be
+// looked at until that much motion has gone by. Pairs sleep accordingly; those that could touch within a
+// short window of motion are near and are evaluated every step. Sleeping pairs do not touch, so the forces
+// are those of all pairs.
+#pragma once
+#include <vector>
+
+#include "kernels/kernel_table.hpp"
+#include "plan/step_plan.hpp"
+
+namespace cinch {
+
+/// Pairs in a thread's own numbers: those of rings by ring and element, then those of balls.
+struct LocalContacts {
+  std::vector<kernel::Pair> pairs;
+  Index ball_begin = 0;                          ///< first pair with a ball
+  std::vector<kernel::RingGeometry> rings;       ///< ring
+  std::vector<kernel::RingTally*> ring_tallies;  ///< ring: null where another thread books it
+  std::vector<double> centers;                   ///< ball x 3, m
+  std::vector<kernel::BallTally*> ball_tallies;  ///< pair: likewise; null for pairs with rings
+};
+
+/// The state that contacts look at; all of a thread's nodes.
+struct NodeView {
+  const double *x, *y, *z, *vx, *vy, *vz, *share;
+};
+
+class NearContacts {
+ public:
+  /// Takes a new list; all its pairs are awake. `margin`: the motion for which the list is good, m.
+  void renew(LocalContacts contacts, double margin);
+
+  /// Evaluates the contacts at `time`, when `motion` (m, twice the summed greatest speed) of the margin has
+  /// gone by. Books over `booked_dt` s (0: only what is of this moment). `loads` holds the forces then.
+  void evaluate(const NodeView& nodes, const StepPlan& plan, double time, double booked_dt, double motion);
+
+  const kernel::Load* loads() const { return loads_.data(); }
+  Index load_count() const { return load_count_; }
+  std::int64_t evaluated() const { return evaluated_; }  ///< pairs so far
+
+ private:
+  void wake(double motion);
+  void put_to_sleep(double motion);
+
+  LocalContacts contacts_;
+  double window_ = 0;                ///< m
+  double near_until_ = 0;            ///< motion up to which `near_` is complete
+  std::vector<double> asleep_;       ///< pair: motion up to which it sleeps
+  std::vector<Index> near_;          ///< pairs, ascending
+  Index near_rings_ = 0;             ///< of them with rings
+  std::vector<double> gap_;          ///< near pair, m
+  std::vector<kernel::Load> loads_;  ///< room for all
+  Index load_count_ = 0;
+  std::int64_t evaluated_ = 0;
+};
+
+}  // namespace cinch

@@ -1,0 +1,273 @@
+#include "plan/piece.hpp"
+
+#include <algorithm>
+#include <cstring>
+#include <string>
+#include <unordered_map>
+
+#include "store/fields.hpp"
+
+namespace cinch {
+namespace {
+
+constexpr std::size_t at(Index i) { return static_cast<std::size_t>(i); }
+
+constexpr double void_length = 1e300;   ///< rest length of a lane without element: never taut
+constexpr int sweep_levels = 4;         ///< steps in one sweep over a scene too large for the cache
+constexpr Index nodes_in_cache = 8000;  ///< 56 bytes each: half of a second-level cache
+
+struct PaletteRow {
+  double stiffness[kernel::lanes], damping[kernel::lanes], rest_length[kernel::lanes];
+};
+
+// The first block whose nodes all lie behind what the elements of block b reach, less b; at most.
+std::size_t reach_in_blocks(const std::vector<Index>& edges, Index reach) {
+  std::size_t most = 1;
+  for (std::size_t b = 0; b + 1 < edges.size(); ++b) {
+    std::size_t next = b + 1;
+    while (next + 1 < edges.size() && edges[next] < edges[b + 1] + reach) ++next;
+    most = std::max(most, next - b);
+  }
+  return most;
+}
+
+}  // namespace
+
+Piece::Piece(const Model& model, const StepPlan& plan, const std::vector<double>& node_share)
+    : plan_(plan), whole_(true), numbering_(Numbering::all(model.nodes)), topology_(model.topology) {
+  set_up(model, node_share);
+}
+
+Piece::Piece(const Model& model, const StepPlan& plan, const std::vector<double>& node_share,
+             const std::vector<Index>& own, int depth)
+    : plan_(plan),
+      whole_(false),
+      numbering_(Numbering::of(own, model.topology, model.nodes, depth)),
+      topology_(local_topology(model.topology, numbering_)) {
+  set_up(model, node_share);
+}
+
+void Piece::set_up(const Model& model, const std::vector<double>& node_share) {
+  set_constraints(model);
+  reduction_ = reduce_forces(topology_, numbering_, constraints_);
+  set_parameters(model);
+  if (plan_.contacts()) levels_ = 1;
+  else levels_ = whole_ ? (model.nodes > nodes_in_cache ? sweep_levels : 1) : numbering_.depth;
+  Index reach = 0;
+  for (const Run& run : topology_.runs) reach = std::max(reach, run.offset);
+  for (const LinkEnds& link : topology_.links) reach = std::max(reach, link.b - link.a);
+  lag_ = reach_in_blocks(reduction_.edges, reach);
+  allocate(model, node_share);
+}
+
+void Piece::set_constraints(const Model& model) {
+  for (std::size_t c = 0; c < model.constraints.size(); ++c) {
+    kernel::Constraint here = model.constraints[c];
+    here.node = numbering_.local(here.node);
+    if (here.node < 0 || !numbering_.moved(here.node)) continue;
+    constraints_.push_back(here);
+    reaction_number_.push_back(numbering_.own(here.node) ? static_cast<Index>(c) : -1);
+  }
+  held_.resize(constraints_.size());
+  reactions_.resize(constraints_.size());
+}
+
+// The rows of the palette that differ, and which of them each group has: of most groups it is the same.
+void Piece::set_parameters(const Model& model) {
+  std::unordered_map<std::string, Index> rows;  // by their bytes
+  PaletteRow row;
+  std::string bytes(sizeof row, '\0');
+  for (const Run& run : topology_.runs)
+    for (Index g = 0; g < group_count(run); ++g) {
+      for (Index lane = 0; lane < kernel::lanes; ++lane) {
+        const Index k = first_group_node(run) + g * kernel::lanes + lane - run.a;
+        const Index e = k >= 0 && k < run.count ? topology_.slot_element[at(run.slot + k)] : -1;
+        row.stiffness[lane] = e >= 0 ? model.stiffness[at(e)] : 0;
+        row.damping[lane] = e >= 0 ? model.damping[at(e)] : 0;
+        row.rest_length[lane] = e >= 0 ? model.rest_length[at(e)] : void_length;
+      }
+      std::memcpy(bytes.data(), &row, sizeof row);
+      const auto [found, fresh] = rows.try_emplace(bytes, static_cast<Index>(rows.size()));
+      if (fresh) {
+        palette_.insert(palette_.end(), row.stiffness, row.stiffness + kernel::lanes);
+        palette_.insert(palette_.end(), row.damping, row.damping + kernel::lanes);
+        palette_.insert(palette_.end(), row.rest_length, row.rest_length + kernel::lanes);
+      }
+      parameter_.push_back(found->second);
+    }
+  for (std::size_t i = 0; i < topology_.links.size(); ++i) {
+    const auto e = at(topology_.links[i].element);
+    kernel::Link& link = reduction_.links[i];
+    link.stiffness = model.stiffness[e], link.damping = model.damping[e],
+    link.rest_length = model.rest_length[e];
+  }
+}
+
+void Piece::allocate(const Model& model, const std::vector<double>& node_share) {
+  const auto nodes = at(numbering_.nodes());
+  scale_.assign(nodes, 0.0);
+  for (std::size_t i = 0; i < nodes; ++i)
+    if (numbering_.moved(static_cast<Index>(i))) scale_[i] = plan_.dt / model.mass[at(numbering_.global[i])];
+  for (auto& f : force_) f.assign(at(reduction_.force_count) * at(levels_), 0.0);
+  set_contact_ghosts({}, node_share);
+}
+
+void Piece::set_contact_ghosts(std::vector<Index> nodes, const std::vector<double>& node_share) {
+  contact_ghosts_ = std::move(nodes);
+  const std::size_t numbered = at(numbering_.nodes()), all = numbered + contact_ghosts_.size();
+  scale_.resize(all, 0.0);
+  std::fill(scale_.begin() + numbering_.nodes(), scale_.end(), 0.0);
+  if (plan_.contacts()) {
+    share_.resize(all);
+    for (std::size_t i = 0; i < all; ++i) {
+      const Index node = i < numbered ? numbering_.global[i] : contact_ghosts_[i - numbered];
+      share_[i] = node >= 0 ? node_share[at(node)] : 0.0;
+    }
+  }
+  if (!whole_)
+    for (auto& field : own_fields_) field.resize(all, 0.0);
+}
+
+Index Piece::local(Index global_node) const {
+  if (whole_) return global_node;
+  if (const Index numbered = numbering_.local(global_node); numbered >= 0) return numbered;
+  const auto found = std::lower_bound(contact_ghosts_.begin(), contact_ghosts_.end(), global_node);
+  if (found == contact_ghosts_.end() || *found != global_node) return -1;
+  return numbering_.nodes() + static_cast<Index>(found - contact_ghosts_.begin());
+}
+
+std::vector<Index> Piece::ghost_places() const {
+  std::vector<Index> places;
+  for (Index i = 0; i < numbering_.nodes(); ++i)
+    if (numbering_.ghost(i)) places.push_back(i);
+  for (std::size_t i = 0; i < contact_ghosts_.size(); ++i)
+    places.push_back(numbering_.nodes() + static_cast<Index>(i));
+  return places;
+}
+
+std::vector<Index> Piece::ghosts() const {
+  std::vector<Index> nodes;
+  for (const Index place : ghost_places())
+    nodes.push_back(place < numbering_.nodes() ? numbering_.global[at(place)]
+                                               : contact_ghosts_[at(place - numbering_.nodes())]);
+  return nodes;
+}
+
+void Piece::take(State& state) {
+  for (std::size_t f = 0; f < 6; ++f) {
+    AlignedVector<double>& from = state.*node_fields[f].values;
+    if (whole_) {
+      fields_[f] = from.data();
+      continue;
+    }
+    fields_[f] = own_fields_[f].data();
+    for (std::size_t i = 0; i < numbering_.global.size(); ++i)
+      if (numbering_.global[i] >= 0) fields_[f][i] = from[at(numbering_.global[i])];
+    for (std::size_t i = 0; i < contact_ghosts_.size(); ++i)
+      fields_[f][numbering_.global.size() + i] = from[at(contact_ghosts_[i])];
+  }
+  bind(state);
+}
+
+void Piece::give(State& state) const {
+  if (whole_) return;
+  for (std::size_t f = 0; f < 6; ++f) {
+    AlignedVector<double>& to = state.*node_fields[f].values;
+    for (std::size_t i = 0; i < numbering_.global.size(); ++i)
+      if (numbering_.layer[i] == 0) to[at(numbering_.global[i])] = fields_[f][i];
+  }
+}
+
+void Piece::bind(State& state) {
+  axial_ = {fields_[0],       fields_[1],       fields_[2],        fields_[3],
+            fields_[4],       fields_[5],       parameter_.data(), palette_.data(),
+            force_[0].data(), force_[1].data(), force_[2].data(),  state.dissipated.data()};
+  const Vec3 g = plan_.dt * plan_.gravity_acceleration;
+  node_ = {fields_[0],
+           fields_[1],
+           fields_[2],
+           fields_[3],
+           fields_[4],
+           fields_[5],
+           scale_.data(),
+           force_[0].data(),
+           force_[1].data(),
+           force_[2].data(),
+           {g.x(), g.y(), g.z()},
+           plan_.dt};
+  for (std::size_t c = 0; c < reactions_.size(); ++c)
+    reactions_[c] = reaction_number_[c] >= 0 ? &state.reactions[at(reaction_number_[c])] : &unbooked_;
+}
+
+NodeView Piece::view() const {
+  return {fields_[0], fields_[1], fields_[2], fields_[3], fields_[4], fields_[5], share_.data()};
+}
+
+void Piece::use_level(int level) {
+  const std::size_t first = at(level) * at(reduction_.force_count);
+  axial_.fx = force_[0].data() + first, axial_.fy = force_[1].data() + first,
+  axial_.fz = force_[2].data() + first;
+  node_.fx = axial_.fx, node_.fy = axial_.fy, node_.fz = axial_.fz;
+}
+
+// The forces of a block's elements, then its nodes; what supports do comes later.
+double Piece::compute_and_move(const Block& b, StageClock& clock) {
+  const KernelTable& k = kernels();
+  const ForceReduction& r = reduction_;
+  if (b.patch_begin < b.patch_end) k.patch_forces(axial_, r.patches.data(), b.patch_begin, b.patch_end);
+  k.axial_spans[plan_.damped][plan_.ledger](axial_, r.spans.data(), b.span_begin, b.span_end);
+  if (b.link_begin < b.link_end)
+    k.axial_links[plan_.damped][plan_.ledger](axial_, r.links.data(), b.link_begin, b.link_end);
+  clock.tick(StageId::axial_forces);
+  double greatest = k.move_nodes[plan_.gravity][plan_.contacts()](node_, r.stretches.data(), b.stretch_begin,
+                                                                  b.stretch_end);
+  if (b.kick_begin < b.kick_end)
+    greatest = std::max(greatest, k.kick_nodes(node_, r.kicks.data(), b.kick_begin, b.kick_end));
+  clock.tick(StageId::gather_and_move);
+  return greatest;
+}
+
+void Piece::hold_before(Index begin, Index end) {
+  if (begin < end) kernels().hold_before(node_, constraints_.data(), begin, end, held_.data());
+}
+
+void Piece::hold_after(Index begin, Index end) {
+  if (begin < end)
+    kernels().hold_after(node_, constraints_.data(), begin, end, held_.data(), reactions_.data());
+}
+
+double Piece::step(double time, double motion, StageClock& clock) {
+  const auto constraints = static_cast<Index>(constraints_.size());
+  contacts_.evaluate(view(), plan_, time, plan_.dt, motion);
+  clock.tick(StageId::contacts);
+  hold_before(0, constraints);
+  double greatest = 0;
+  for (const Block& block : reduction_.blocks) greatest = std::max(greatest, compute_and_move(block, clock));
+  greatest = std::max(greatest, kernels().load_nodes(node_, contacts_.loads(), contacts_.load_count()));
+  hold_after(0, constraints);
+  clock.tick(StageId::gather_and_move);
+  return greatest;
+}
+
+// Step s works `lag_` blocks behind step s - 1: what it needs has had that step then, and a few blocks go
+// through all steps while they are in the cache.
+void Piece::sweep(int steps, StageClock& clock) {
+  const std::size_t blocks = reduction_.blocks.size(), delay = at(steps - 1) * lag_;
+  for (std::size_t front = 0; front < blocks + delay; ++front)
+    for (int s = 0; s < steps; ++s) {
+      const std::size_t behind = at(s) * lag_;
+      if (front < behind) break;
+      if (front - behind >= blocks) continue;
+      const Block& block = reduction_.blocks[front - behind];
+      if (steps > 1) use_level(s);
+      hold_before(block.constraint_begin, block.constraint_end);
+      compute_and_move(block, clock);
+      hold_after(block.constraint_begin, block.constraint_end);
+    }
+}
+
+void Piece::evaluate_contacts(double time, double motion) {
+  contacts_.evaluate(view(), plan_, time, 0, motion);
+}
+
+}  // namespace cinch

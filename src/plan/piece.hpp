@@ -1,0 +1,90 @@
+// One thread's share of a scene: the nodes that it moves, ghosts of the others' nodes that its elements and
+// contacts need, and everything that a step of them takes. A scene on one thread is one piece without ghosts,
+// which works on the state itself; else each piece has its own copy, which its own thread is the first to
+// touch.
+#pragma once
+#include "plan/near_contacts.hpp"
+#include "plan/stage_clock.hpp"
+#include "store/force_reduction.hpp"
+#include "store/state.hpp"
+
+namespace cinch {
+
+class Piece {
+ public:
+  /// All nodes of the scene. `node_share` by node, see stable_step.hpp; empty in scenes without contacts.
+  Piece(const Model& model, const StepPlan& plan, const std::vector<double>& node_share);
+  /// The nodes `own` (ascending). `depth`: steps between two exchanges of ghosts.
+  Piece(const Model& model, const StepPlan& plan, const std::vector<double>& node_share,
+        const std::vector<Index>& own, int depth);
+  Piece(const Piece&) = delete;
+  Piece& operator=(const Piece&) = delete;
+
+  const Numbering& numbering() const { return numbering_; }
+  const ForceReduction& reduction() const { return reduction_; }
+  const Topology& topology() const { return topology_; }
+  /// Steps that it can do between two exchanges, all in one sweep over its blocks.
+  int levels() const { return levels_; }
+
+  /// Ghosts that only contacts need (user's numbers, ascending); they lie behind the numbered nodes.
+  void set_contact_ghosts(std::vector<Index> nodes, const std::vector<double>& node_share);
+  /// Local number of any node that is here; -1 where it is not.
+  Index local(Index global_node) const;
+  /// Local numbers of all ghosts and, in the same order, their users' numbers.
+  std::vector<Index> ghost_places() const, ghosts() const;
+
+  NearContacts& contacts() { return contacts_; }
+
+  /// Works from now on with this state: on it (whole), or on copies of all local nodes.
+  void take(State& state);
+  /// Copies own nodes to the state.
+  void give(State& state) const;
+  /// x, y, z, vx, vy, vz (number 0 to 5) of the local nodes.
+  double* field(std::size_t number) { return fields_[number]; }
+
+  /// One step of a scene with contacts; returns the greatest squared speed of its own nodes. `motion`: see
+  /// NearContacts.
+  double step(double time, double motion, StageClock& clock);
+  /// `steps` <= levels() steps of a scene without contacts.
+  void sweep(int steps, StageClock& clock);
+  /// Contact forces of this moment; books nothing.
+  void evaluate_contacts(double time, double motion);
+
+ private:
+  void set_up(const Model& model, const std::vector<double>& node_share);
+  void set_constraints(const Model& model);
+  void set_parameters(const Model& model);
+  void allocate(const Model& model, const std::vector<double>& node_share);
+  void bind(State& state);
+  NodeView view() const;
+  void use_level(int level);
+  double compute_and_move(const Block& block, StageClock& clock);
+  void hold_before(Index begin, Index end);
+  void hold_after(Index begin, Index end);
+
+  StepPlan plan_;
+  bool whole_;
+  int levels_ = 1;
+  std::size_t lag_ = 1;  ///< blocks that a step of a sweep stays behind the one before it
+  Numbering numbering_;
+  Topology topology_;
+  std::vector<kernel::Constraint> constraints_;
+  ForceReduction reduction_;
+  std::vector<Index> contact_ghosts_;
+
+  AlignedVector<double> own_fields_[6];  ///< of a piece that is not whole
+  double* fields_[6] = {};
+  AlignedVector<double> scale_, share_;       ///< node
+  AlignedVector<double> palette_;             ///< row x (k, c, l0) x lanes: see AxialArguments
+  std::vector<Index> parameter_;              ///< group, in the order of the runs: its row
+  AlignedVector<double> force_[3];            ///< level x force
+  std::vector<kernel::Held> held_;            ///< constraint
+  std::vector<Index> reaction_number_;        ///< constraint: its number in the model; -1: not booked here
+  std::vector<kernel::Reaction*> reactions_;  ///< constraint
+  kernel::Reaction unbooked_{};
+  kernel::AxialArguments axial_{};
+  kernel::NodeArguments node_{};
+  NearContacts contacts_;
+};
+
+}  // namespace cinch

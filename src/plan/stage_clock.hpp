@@ -1,0 +1,42 @@
+// Times the stages of a step on few steps, as a reading of the clock costs as much as a small kernel, and
+// scales up.
+#pragma once
+#include <array>
+#include <chrono>
+#include <cstdint>
+
+#include "plan/step_plan.hpp"
+
+namespace cinch {
+
+using StageSeconds = std::array<double, stage_count>;
+
+inline double clock_seconds() {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
+
+class StageClock {
+ public:
+  static constexpr std::int64_t timed_every = 64;
+
+  /// Runs when stretch number `number` of steps is one of those timed; adds to `seconds`.
+  StageClock(std::int64_t number, StageSeconds& seconds)
+      : timed_(number % timed_every == 0), seconds_(seconds) {
+    if (timed_) last_ = clock_seconds();
+  }
+
+  /// Books the time since the last tick on a stage, scaled up to all stretches.
+  void tick(StageId stage) {
+    if (!timed_) return;
+    const double t = clock_seconds();
+    seconds_[static_cast<std::size_t>(stage)] += static_cast<double>(timed_every) * (t - last_);
+    last_ = t;
+  }
+
+ private:
+  bool timed_;
+  StageSeconds& seconds_;
+  double last_ = 0;
+};
+
+}  // namespace cinch
