@@ -8,7 +8,8 @@ namespace cinch::kernel {
 constexpr Index block_size = 256;  ///< nodes that are computed and moved together, about
 constexpr Index grain = 128;       ///< nodes whose elements share one row of the ledger; whole groups
 constexpr Index lanes = 8;         ///< nodes and elements go in groups of so many, whatever the vector width
-constexpr Index max_terms = 3;     ///< element forces on a node that one pass adds up, in pairs (+, -)
+constexpr Index ring_scratch = 3584;  ///< numbers that a batch of ring contacts works on
+constexpr Index max_terms = 3;        ///< element forces on a node that one pass adds up, in pairs (+, -)
 
 /// Elements whose lower ends are the nodes of whole groups from `node` on; the upper ends lie `step` nodes
 /// further on. Lanes without element have void parameters and give zero force.
@@ -97,6 +98,16 @@ struct Pair {
 /// What stands for the element of a sphere around the node; its own inverse.
 constexpr Index sphere_label(Index node) { return -1 - node; }
 
+/// What the batches of ring_lanes.hpp need of a pair with a ring, in one place.
+struct RingLane {
+  Index a, b, host_a, host_b;  ///< nodes
+  double radius;               ///< of the ring, m
+  double contact_distance, stiffness;
+  double touch_a, touch_b;              ///< squared distance below which an end's own contact counts, or 0
+  double share_a, share_b, host_share;  ///< of the stable step, 1/kg
+  double held;                          ///< 1: the ring has a node of its own and does not turn
+};
+
 struct RingGeometry {
   Index a, b;        ///< host nodes; the same for a ring with a node of its own
   double normal[3];  ///< used when a == b
@@ -134,8 +145,10 @@ struct RingArguments {
   const RingGeometry* rings;
   RingTally* const* tallies;  ///< ring: where it is booked, or null: booked elsewhere
   Index ring_count;
-  bool golden;  ///< closest point by golden section, the paper's method
-  bool couple;  ///< keep the couple that eq. (12) drops
+  const RingLane* lanes;  ///< pair
+  double* scratch;  ///< ring_scratch numbers, of which only this call knows what they mean; zero at first
+  bool golden;      ///< closest point by golden section, the paper's method
+  bool couple;      ///< keep the couple that eq. (12) drops
 };
 
 /// What one pair with a ball has felt, or a sum of such.

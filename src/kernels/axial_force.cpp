@@ -100,15 +100,15 @@ void axial_links(const AxialArguments& g, const Link* links, Index begin, Index 
   }
 }
 
-inline void patch(double* force, const Patch& p) {
-  for (Index k = 0; k < p.count; ++k) force[p.to + k] = p.from < 0 ? 0.0 : force[p.from + k];
-}
-
 void patch_forces(const AxialArguments& g, const Patch* patches, Index begin, Index end) {
   for (Index i = begin; i < end; ++i) {
-    patch(g.fx, patches[i]);
-    patch(g.fy, patches[i]);
-    patch(g.fz, patches[i]);
+    const Patch& p = patches[i];
+    const bool copy = p.from >= 0;
+    for (Index k = 0; k < p.count; ++k) {  // mostly one
+      g.fx[p.to + k] = copy ? g.fx[p.from + k] : 0.0;
+      g.fy[p.to + k] = copy ? g.fy[p.from + k] : 0.0;
+      g.fz[p.to + k] = copy ? g.fz[p.from + k] : 0.0;
+    }
   }
 }
 

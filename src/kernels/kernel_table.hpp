@@ -27,7 +27,7 @@ struct KernelTable {
   void (*hold_after)(const kernel::NodeArguments&, const kernel::Constraint*, Index begin, Index end,
                      const kernel::Held*, kernel::Reaction* const* reactions);
   /// Contacts of the pairs pairs[near[i]], i < count, in the order of their rings. Writes forces on nodes to
-  /// `loads` (room for two a pair and two a ring) and the distance left to a contact to gap[i], m (negative:
+  /// `loads` (room for four a pair) and the distance left to a contact to gap[i], m (negative:
   /// penetration). Returns the number of loads.
   Index (*ring_contacts)(const kernel::RingArguments&, const kernel::Pair* pairs, const Index* near,
                          Index count, double* gap, kernel::Load* loads);

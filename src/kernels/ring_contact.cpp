@@ -24,56 +24,121 @@ using kernel::RingArguments;
 using kernel::RingGeometry;
 using kernel::RingTally;
 
+// What the contacts of one ring add up to in one step.
+struct RingSum {
+  V3 on_ring{0, 0, 0};  // force, N
+  double potential = 0, power = 0;
+  double couple_power = 0;              // of the couple that is not kept
+  V3 torque{0, 0, 0};                   // of it, or of the one that a support takes, N m
+  double penetration = 0;               // greatest, m
+  double host_use = 0, thread_use = 0;  // shares of the stable step: summed on the host, greatest on a thread
+  Index stiffest = -1;                  // element with that greatest share
+
+  void note_use(const Pair& c, double depth, double on_host, double on_thread) {
+    penetration = depth > penetration ? depth : penetration;
+    host_use += on_host;
+    stiffest = on_thread >= thread_use ? c.element : stiffest;
+    thread_use = on_thread >= thread_use ? on_thread : thread_use;
+  }
+};
+
+// ---- one pair at a time: the plain reference
+
+// Where a ring is and how it moves.
+struct RingMotion {
+  V3 center, normal, velocity;
+  V3 turn;                // dN/dt before projection: (v_b - v_a) / L; zero for a ring with a node of its own
+  double inverse_length;  // 1 / L; zero for a ring with a node of its own
+  bool held;              // has a node of its own and does not turn
+
+  double half() const { return held ? 1.0 : 0.5; }
+  double turn_length(const RingArguments& g) const { return held || !g.couple ? 0.0 : inverse_length; }
+};
+
+inline RingMotion ring_motion(const kernel::ContactArguments& c, const RingGeometry& ring) {
+  const V3 xa = at(c.x, c.y, c.z, ring.a), va = at(c.vx, c.vy, c.vz, ring.a);
+  if (ring.a == ring.b) return {xa, {ring.normal[0], ring.normal[1], ring.normal[2]}, va, {0, 0, 0}, 0, true};
+  const V3 xb = at(c.x, c.y, c.z, ring.b), vb = at(c.vx, c.vy, c.vz, ring.b);
+  const V3 along = xb - xa;
+  const double length = norm(along);
+  // a host folded to a point keeps a zero normal: no contact
+  const double inverse = length > 0 ? 1 / length : 0.0;
+  return {0.5 * (xa + xb), inverse * along, 0.5 * (va + vb), inverse * (vb - va), inverse, false};
+}
+
+// Forces that one pair puts on nodes, N.
+struct PairLoads {
+  V3 a{0, 0, 0}, b{0, 0, 0}, host_a{0, 0, 0}, host_b{0, 0, 0};
+};
+
 // Adds `weight` times the contact of the point at t; returns the law's result for the watch.
-inline ContactForce add_contact(const RingArguments& g, const RingMotion& ring, const Pair& c,
-                                const CirclePoint& point, double t, double weight, EndLoads& loads,
+inline ContactForce add_contact(const RingArguments& g, const RingMotion& ring, double radius, const Pair& c,
+                                const CirclePoint& point, double t, double weight, PairLoads& loads,
                                 RingSum& sum) {
   const auto& k = g.contact;
   const V3 gap = point.p - point.q;
   // on the wire's centre line itself the thread is pushed towards the ring's axis
   const V3 n = point.distance > 0 ? (1 / point.distance) * gap : -1.0 * point.radial;
   const V3 velocity = blend(at(k.vx, k.vy, k.vz, c.a), at(k.vx, k.vy, k.vz, c.b), t);
-  const double lever = ring.radius * dot(n, ring.normal);
+  const double lever = radius * dot(n, ring.normal);
   const double turning = lever * dot(point.radial, ring.turn);
   const double rate = -(dot(n, velocity - ring.velocity) + turning);
   const ContactForce law = contact_law(c.contact_distance - point.distance, rate, c.stiffness, k.alpha);
   const V3 force = (weight * law.force) * n;
+  const V3 couple = (weight * law.force * lever) * point.radial;
+  const V3 across = couple - dot(couple, ring.normal) * ring.normal, turn = ring.turn_length(g) * across;
   loads.a = loads.a + (1 - t) * force;
   loads.b = loads.b + t * force;
+  loads.host_a = loads.host_a - ring.half() * force - turn;
+  loads.host_b = loads.host_b - ring.half() * force + turn;
   sum.on_ring = sum.on_ring - force;
-  sum.couple = sum.couple + (weight * law.force * lever) * point.radial;
   sum.potential += weight * law.potential;
   sum.power += weight * (law.force - law.elastic) * rate;
-  sum.couple_power += weight * law.force * turning;
+  if (ring.held || !g.couple) {
+    sum.couple_power += weight * law.force * turning;
+    sum.torque = sum.torque + cross(ring.normal, across);
+  }
   return law;
 }
 
 // Takes off the share of an end node's own contact (count each contact once).
-inline void take_off_node(const RingArguments& g, const RingMotion& ring, const Pair& c, V3 place, double t,
-                          double weight, EndLoads& loads, RingSum& sum) {
+inline void take_off_node(const RingArguments& g, const RingMotion& ring, double radius, const Pair& c,
+                          V3 place, double t, double weight, PairLoads& loads, RingSum& sum) {
   if (weight == 0) return;
-  const CirclePoint point = point_circle(place, ring.center, ring.normal, ring.radius);
-  if (point.distance < c.contact_distance) add_contact(g, ring, c, point, t, -weight, loads, sum);
+  const CirclePoint point = point_circle(place, ring.center, ring.normal, radius);
+  if (point.distance < c.contact_distance) add_contact(g, ring, radius, c, point, t, -weight, loads, sum);
 }
 
-// One pair; returns the distance left to a contact.
-inline double one_pair(const RingArguments& g, const RingMotion& ring, const Pair& c, EndLoads& loads,
-                       RingSum& sum) {
+// One pair; returns the distance left to a contact. Rarely needed beside the batches: kept out of their way.
+[[gnu::noinline, gnu::cold]] double one_pair(const RingArguments& g, const Pair& c,
+                                             const kernel::RingLane& lane, PairLoads& loads, RingSum& sum) {
   const auto& k = g.contact;
+  const RingMotion ring = ring_motion(k, g.rings[c.with]);
+  const double radius = g.rings[c.with].radius;
   const V3 xa = at(k.x, k.y, k.z, c.a), xb = at(k.x, k.y, k.z, c.b);
-  const CirclePoint point = g.golden ? segment_circle_golden(xa, xb, ring.center, ring.normal, ring.radius)
-                                     : segment_circle_exact(xa, xb, ring.center, ring.normal, ring.radius);
+  const CirclePoint point = g.golden ? segment_circle_golden(xa, xb, ring.center, ring.normal, radius)
+                                     : segment_circle_exact(xa, xb, ring.center, ring.normal, radius);
   const double penetration = c.contact_distance - point.distance;
   if (!(penetration > 0)) return -penetration;
-  const ContactForce law = add_contact(g, ring, c, point, point.t, 1, loads, sum);
-  take_off_node(g, ring, c, xa, 0, c.weight_a, loads, sum);
-  take_off_node(g, ring, c, xb, 1, c.weight_b, loads, sum);
-  const double kappa = step_weight(k, law);
+  const ContactForce law = add_contact(g, ring, radius, c, point, point.t, 1, loads, sum);
+  take_off_node(g, ring, radius, c, xa, 0, c.weight_a, loads, sum);
+  take_off_node(g, ring, radius, c, xb, 1, c.weight_b, loads, sum);
+  const double kappa = step_weight(k, law), t = point.t;
   const double lever =
-      ring.radius * dot(point.p - point.q, ring.normal) / (point.distance > 0 ? point.distance : 1.0);
-  note_use(sum, c, penetration, host_use(g, ring, kappa, lever), thread_share(k, c, point.t, kappa));
+      radius * dot(point.p - point.q, ring.normal) / (point.distance > 0 ? point.distance : 1.0);
+  sum.note_use(c, penetration, host_use(kappa, ring.half(), ring.turn_length(g), lever, lane.host_share),
+               kappa * ((1 - t) * (1 - t) * lane.share_a + t * t * lane.share_b));
   return -penetration;
 }
+
+inline void write_loads(const kernel::RingLane& p, const PairLoads& loads, LoadWriter& out) {
+  out.add(p.a, loads.a);
+  out.add(p.b, loads.b);
+  out.add(p.host_a, loads.host_a);
+  if (!(p.held > 0)) out.add(p.host_b, loads.host_b);
+}
+
+// ---- what one ring feels
 
 // Peak, first contact and its first release.
 inline void note_force(RingTally& tally, double force, double time) {
@@ -81,6 +146,7 @@ inline void note_force(RingTally& tally, double force, double time) {
     tally.peak_force = force;
     tally.peak_time = time;
   }
+  if (tally.state == 2) return;
   if (tally.state == 0 && force > 0) {
     tally.state = 1;
     tally.first_time = time;
@@ -92,20 +158,18 @@ inline void note_force(RingTally& tally, double force, double time) {
 }
 
 // What this step adds to the ring's tally.
-inline void book(const RingArguments& g, const RingMotion& ring, const RingSum& sum, V3 couple,
-                 RingTally& tally) {
+inline void book(const RingArguments& g, Index r, const RingSum& sum, RingTally& tally) {
   const auto& k = g.contact;
   tally.force[0] = sum.on_ring.x;
   tally.force[1] = sum.on_ring.y;
   tally.force[2] = sum.on_ring.z;
   tally.potential = sum.potential;
   tally.dissipated += k.dt * sum.power;
-  if (ring.held || !g.couple) {  // a ring that cannot turn: its support takes the couple, without work
-    const V3 torque = cross(ring.normal, couple);
+  if (!g.couple || g.rings[r].a == g.rings[r].b) {
     tally.couple_work += k.dt * sum.couple_power;
-    tally.couple_impulse[0] += k.dt * torque.x;
-    tally.couple_impulse[1] += k.dt * torque.y;
-    tally.couple_impulse[2] += k.dt * torque.z;
+    tally.couple_impulse[0] += k.dt * sum.torque.x;
+    tally.couple_impulse[1] += k.dt * sum.torque.y;
+    tally.couple_impulse[2] += k.dt * sum.torque.z;
   }
   note_force(tally, norm(sum.on_ring), k.time);
   if (sum.penetration > tally.max_penetration) tally.max_penetration = sum.penetration;
@@ -117,18 +181,6 @@ inline void book(const RingArguments& g, const RingMotion& ring, const RingSum& 
   }
 }
 
-// Forces on the host's ends.
-inline void finish_ring(const RingArguments& g, Index r, const RingMotion& ring, const RingSum& sum,
-                        LoadWriter& out) {
-  const V3 couple = sum.couple - dot(sum.couple, ring.normal) * ring.normal;
-  if (RingTally* tally = g.tallies[r]) book(g, ring, sum, couple, *tally);
-  if (!sum.touched) return;
-  if (ring.held) return out.add(g.rings[r].a, sum.on_ring);
-  const V3 turn = g.couple ? ring.inverse_length * couple : V3{0, 0, 0};
-  out.add(g.rings[r].a, 0.5 * sum.on_ring - turn);
-  out.add(g.rings[r].b, 0.5 * sum.on_ring + turn);
-}
-
 // A ring that nothing is near to.
 inline void release(RingTally& tally) {
   tally.force[0] = tally.force[1] = tally.force[2] = 0;
@@ -136,57 +188,75 @@ inline void release(RingTally& tally) {
   if (tally.state == 1) tally.state = 2;
 }
 
-// The pairs near[begin, end) of one ring that lie in lanes [0, end - begin) of a batch.
-inline void take_lanes(const RingArguments& g, const RingMotion& ring, const RingLanes& lanes,
-                       const Pair* pairs, const Index* near, Index begin, Index end, Index first_lane,
-                       double* gap, RingSum& sum, LoadWriter& out) {
-  for (Index i = begin; i < end; ++i) {
+// ---- batches
+
+// Adds a lane in contact.
+inline void take_lane(const RingArguments& g, const RingLanes& l, Index lane, const Pair& c, RingSum& sum) {
+  sum.on_ring = sum.on_ring + get(l.on_ring, lane);
+  sum.potential += l.potential.at[lane];
+  sum.power += l.power.at[lane];
+  if (!g.couple || l.held.at[lane] > 0) {
+    sum.couple_power += l.couple_power.at[lane];
+    sum.torque = sum.torque + get(l.torque, lane);
+  }
+  sum.note_use(c, -l.gap.at[lane], l.host_use.at[lane], l.thread_use.at[lane]);
+}
+
+// One of the near pairs, which stands in `lane`; returns the distance left to a contact.
+inline double take_pair(const RingArguments& g, const RingLanes& l, Index lane, const Pair& c,
+                        const kernel::RingLane& p, RingSum& sum, LoadWriter& out) {
+  if (l.circle.hard.at[lane] > 0) {
+    PairLoads loads;
+    const double gap = one_pair(g, c, p, loads, sum);
+    if (gap < 0) write_loads(p, loads, out);
+    return gap;
+  }
+  const double gap = l.gap.at[lane];
+  if (!(gap < 0)) return gap;
+  take_lane(g, l, lane, c, sum);
+  write_loads(p, {get(l.on_a, lane), get(l.on_b, lane), get(l.on_host_a, lane), get(l.on_host_b, lane)}, out);
+  return gap;
+}
+
+// Books what ring r has felt, and rings [released, r) that have no near pair.
+inline void close_ring(const RingArguments& g, Index r, RingSum& sum, Index& released) {
+  for (; released < r; ++released)
+    if (RingTally* const tally = g.tallies[released];
+        tally != nullptr && (tally->state == 1 || tally->potential != 0))
+      release(*tally);
+  if (r == g.ring_count) return;
+  if (RingTally* const tally = g.tallies[r]) book(g, r, sum, *tally);
+  sum = RingSum{};
+  released = r + 1;
+}
+
+// The near pairs of a batch, ring by ring.
+inline void take_batch(const RingArguments& g, const RingLanes& lanes, const Pair* pairs, const Index* near,
+                       Index count, double* gap, Index& ring, RingSum& sum, Index& released,
+                       LoadWriter& out) {
+  for (Index i = 0; i < count; ++i) {
     const Pair& c = pairs[near[i]];
-    const Index lane = first_lane + i - begin;
-    if (lanes.circle.hard.at[lane] > 0) {
-      EndLoads loads;
-      gap[i] = one_pair(g, ring, c, loads, sum);
-      if (!(gap[i] < 0)) continue;
-      sum.touched = true;
-      out.add(c.a, loads.a);
-      out.add(c.b, loads.b);
-      continue;
+    if (c.with != ring) {
+      if (ring >= 0) close_ring(g, ring, sum, released);
+      ring = c.with;
     }
-    gap[i] = lanes.gap.at[lane];
-    if (!(gap[i] < 0)) continue;
-    take_lane(lanes, lane, c, sum);
-    out.add(c.a, {lanes.on_a.x[lane], lanes.on_a.y[lane], lanes.on_a.z[lane]});
-    out.add(c.b, {lanes.on_b.x[lane], lanes.on_b.y[lane], lanes.on_b.z[lane]});
+    gap[i] = take_pair(g, lanes, i, c, g.lanes[near[i]], sum, out);
   }
 }
 
 Index ring_contacts(const RingArguments& g, const Pair* pairs, const Index* near, Index count, double* gap,
                     kernel::Load* loads) {
   LoadWriter out{loads};
-  RingLanes lanes;
-  Index next = 0, batch_begin = 0, batch_end = 0;
-  for (Index r = 0; r < g.ring_count; ++r) {
-    const Index begin = next;
-    while (next < count && pairs[near[next]].with == r) ++next;
-    if (begin == next) {
-      if (RingTally* tally = g.tallies[r]; tally != nullptr && (tally->state == 1 || tally->potential != 0))
-        release(*tally);
-      continue;
-    }
-    const RingMotion ring = ring_motion(g, g.rings[r]);
-    RingSum sum;
-    for (Index i = begin; i < next;) {
-      if (i == batch_end) {  // the next batch of pairs, whatever their rings
-        batch_begin = i;
-        batch_end = count - i < lane_capacity ? count : i + lane_capacity;
-        fill_lanes(g, pairs, near + i, batch_end - i, lanes);
-      }
-      const Index end = next < batch_end ? next : batch_end;
-      take_lanes(g, ring, lanes, pairs, near, i, end, i - batch_begin, gap, sum, out);
-      i = end;
-    }
-    finish_ring(g, r, ring, sum, out);
+  RingLanes& lanes = *reinterpret_cast<RingLanes*>(g.scratch);
+  RingSum sum;
+  Index ring = -1, released = 0;
+  for (Index i = 0; i < count; i += lane_capacity) {
+    const Index batch = count - i < lane_capacity ? count - i : lane_capacity;
+    fill_lanes(g, pairs, near + i, batch, lanes);
+    take_batch(g, lanes, pairs, near + i, batch, gap + i, ring, sum, released, out);
   }
+  if (ring >= 0) close_ring(g, ring, sum, released);
+  close_ring(g, g.ring_count, sum, released);
   return static_cast<Index>(out.next - loads);
 }
 

@@ -138,7 +138,8 @@ inline void search_round(const CircleLanes& c, SearchLanes& s, int count) {
 }
 
 inline bool any_open(const SearchLanes& s, int count) {
-  double open = 0;
+  double open = 0;  // whole numbers: their order does not matter
+#pragma omp simd reduction(+ : open)
   for (int i = 0; i < count; ++i) open += s.open.at[i];
   return open > 0.0;
 }

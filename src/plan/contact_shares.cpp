@@ -70,7 +70,7 @@ void hand_out(const Model& model, const ContactList& list, State& state, const s
   piece.set_contact_ghosts(std::move(needed), node_share);
   for (kernel::Pair& pair : out.pairs) pair.a = piece.local(pair.a), pair.b = piece.local(pair.b);
   for (kernel::RingGeometry& ring : out.rings) ring.a = piece.local(ring.a), ring.b = piece.local(ring.b);
-  piece.contacts().renew(std::move(out), list.margin());
+  piece.contacts().renew(std::move(out), list.margin(), piece.share());
 }
 
 void release_lonely_rings(const ContactList& list, State& state) {

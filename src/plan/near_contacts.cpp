@@ -3,71 +3,97 @@
 #include <algorithm>
 #include <limits>
 
+#include "kernels/contact_item.hpp"
+
 namespace cinch {
 namespace {
 
 constexpr double window_share = 0.03;  ///< of the margin: bench_contact.cpp measures it
 
+kernel::RingLane lane_of(const kernel::Pair& pair, const kernel::RingGeometry& ring, const double* share) {
+  const bool held = ring.a == ring.b;
+  // a little more than the contact distance: rounding must not hide an end that touches
+  const double touch = pair.contact_distance * pair.contact_distance * (1 + 1e-9);
+  return {pair.a,
+          pair.b,
+          ring.a,
+          ring.b,
+          ring.radius,
+          pair.contact_distance,
+          pair.stiffness,
+          pair.weight_a != 0 ? touch : 0,
+          pair.weight_b != 0 ? touch : 0,
+          plain::multiplicity(pair.weight_a) * share[pair.a],
+          plain::multiplicity(pair.weight_b) * share[pair.b],
+          held ? share[ring.a] : share[ring.a] + share[ring.b],
+          held ? 1.0 : 0.0};
+}
+
 }  // namespace
 
-void NearContacts::renew(LocalContacts contacts, double margin) {
+void NearContacts::renew(LocalContacts contacts, double margin, const double* share) {
   contacts_ = std::move(contacts);
+  lanes_.clear();
+  for (Index i = 0; i < contacts_.ball_begin; ++i) {
+    const kernel::Pair& pair = contacts_.pairs[static_cast<std::size_t>(i)];
+    lanes_.push_back(lane_of(pair, contacts_.rings[static_cast<std::size_t>(pair.with)], share));
+  }
+  scratch_.resize(kernel::ring_scratch);
   window_ = window_share * margin;
   near_until_ = -std::numeric_limits<double>::infinity();
   asleep_.assign(contacts_.pairs.size(), -std::numeric_limits<double>::infinity());
-  near_.reserve(contacts_.pairs.size());
+  for (auto* list : {&near_, &awake_}) list->resize(contacts_.pairs.size() + 1);
   gap_.resize(contacts_.pairs.size());
-  loads_.resize(2 * (contacts_.pairs.size() + contacts_.rings.size()));
+  loads_.resize(4 * contacts_.pairs.size());
   load_count_ = 0;
 }
 
 // All pairs whose sleep ends within the next window of motion.
-void NearContacts::wake(double motion) {
-  near_.clear();
-  near_rings_ = 0;
-  for (std::size_t i = 0; i < asleep_.size(); ++i)
-    if (asleep_[i] <= motion + window_) {
-      near_.push_back(static_cast<Index>(i));
-      near_rings_ += static_cast<Index>(i) < contacts_.ball_begin;
-    }
+void NearContacts::find_near(double motion) {
   near_until_ = motion + window_;
+  near_count_ = 0;
+  for (std::size_t i = 0; i < asleep_.size(); ++i) {
+    near_[near_count_] = static_cast<Index>(i);
+    near_count_ += asleep_[i] <= near_until_;
+  }
 }
 
-// Those just looked at that cannot touch within the window.
-void NearContacts::put_to_sleep(double motion) {
-  std::size_t kept = 0;
-  near_rings_ = 0;
-  for (std::size_t i = 0; i < near_.size(); ++i) {
-    const Index pair = near_[i];
-    asleep_[static_cast<std::size_t>(pair)] = motion + gap_[i];
-    if (gap_[i] > window_) continue;
-    near_[kept++] = pair;
-    near_rings_ += pair < contacts_.ball_begin;
+// Those of the near pairs that could touch now.
+void NearContacts::wake(double motion) {
+  if (!(motion < near_until_)) find_near(motion);
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < near_count_; ++i) {
+    awake_[count] = near_[i];
+    count += asleep_[static_cast<std::size_t>(near_[i])] <= motion;
   }
-  near_.resize(kept);
+  awake_count_ = static_cast<Index>(count);
+  const auto balls = std::lower_bound(awake_.begin(), awake_.begin() + awake_count_, contacts_.ball_begin);
+  awake_rings_ = static_cast<Index>(balls - awake_.begin());
 }
 
 void NearContacts::evaluate(const NodeView& n, const StepPlan& plan, double time, double booked_dt,
                             double motion) {
-  const bool search = !(motion < near_until_);
-  if (search) wake(motion);
+  wake(motion);
   kernel::ContactArguments contact{n.x,  n.y,       n.z,    n.vx, n.vy, n.vz, n.share, plan.alpha_ring,
                                    time, booked_dt, plan.dt};
   const kernel::RingArguments rings{contact,
                                     contacts_.rings.data(),
                                     contacts_.ring_tallies.data(),
                                     static_cast<Index>(contacts_.rings.size()),
+                                    lanes_.data(),
+                                    scratch_.data(),
                                     plan.golden,
                                     plan.couple};
-  load_count_ = kernels().ring_contacts(rings, contacts_.pairs.data(), near_.data(), near_rings_, gap_.data(),
-                                        loads_.data());
+  load_count_ = kernels_.ring_contacts(rings, contacts_.pairs.data(), awake_.data(), awake_rings_,
+                                       gap_.data(), loads_.data());
   contact.alpha = plan.alpha_target;
   const kernel::BallArguments balls{contact, contacts_.centers.data(), contacts_.ball_tallies.data()};
-  load_count_ += kernels().ball_contacts(balls, contacts_.pairs.data(), near_.data() + near_rings_,
-                                         static_cast<Index>(near_.size()) - near_rings_,
-                                         gap_.data() + near_rings_, loads_.data() + load_count_);
-  evaluated_ += static_cast<std::int64_t>(near_.size());
-  if (search) put_to_sleep(motion);
+  load_count_ += kernels_.ball_contacts(balls, contacts_.pairs.data(), awake_.data() + awake_rings_,
+                                        awake_count_ - awake_rings_, gap_.data() + awake_rings_,
+                                        loads_.data() + load_count_);
+  evaluated_ += awake_count_;
+  for (std::size_t i = 0; i < static_cast<std::size_t>(awake_count_); ++i)
+    asleep_[static_cast<std::size_t>(awake_[i])] = motion + gap_[i];
 }
 
 }  // namespace cinch

@@ -30,8 +30,9 @@ struct NodeView {
 
 class NearContacts {
  public:
-  /// Takes a new list; all its pairs are awake. `margin`: the motion for which the list is good, m.
-  void renew(LocalContacts contacts, double margin);
+  /// Takes a new list; all its pairs are awake. `margin`: the motion for which the list is good, m. `share`:
+  /// node_share by node.
+  void renew(LocalContacts contacts, double margin, const double* share);
 
   /// Evaluates the contacts at `time`, when `motion` (m, twice the summed greatest speed) of the margin has
   /// gone by. Books over `booked_dt` s (0: only what is of this moment). `loads` holds the forces then.
@@ -42,17 +43,22 @@ class NearContacts {
   std::int64_t evaluated() const { return evaluated_; }  ///< pairs so far
 
  private:
+  void find_near(double motion);
   void wake(double motion);
-  void put_to_sleep(double motion);
 
+  const KernelTable& kernels_ = kernels();
   LocalContacts contacts_;
-  double window_ = 0;                ///< m
-  double near_until_ = 0;            ///< motion up to which `near_` is complete
-  std::vector<double> asleep_;       ///< pair: motion up to which it sleeps
-  std::vector<Index> near_;          ///< pairs, ascending
-  Index near_rings_ = 0;             ///< of them with rings
-  std::vector<double> gap_;          ///< near pair, m
-  std::vector<kernel::Load> loads_;  ///< room for all
+  std::vector<kernel::RingLane> lanes_;  ///< pair with a ring
+  AlignedVector<double> scratch_;
+  double window_ = 0;           ///< m
+  double near_until_ = 0;       ///< motion up to which `near_` is complete
+  std::vector<double> asleep_;  ///< pair: motion up to which it sleeps
+  std::vector<Index> near_;     ///< pairs that wake within the window, ascending
+  std::size_t near_count_ = 0;
+  std::vector<Index> awake_;                 ///< those that could touch now
+  Index awake_count_ = 0, awake_rings_ = 0;  ///< all, and those with rings, which come first
+  std::vector<double> gap_;                  ///< awake pair, m
+  std::vector<kernel::Load> loads_;          ///< room for all
   Index load_count_ = 0;
   std::int64_t evaluated_ = 0;
 };

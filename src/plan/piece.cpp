@@ -212,7 +212,7 @@ void Piece::use_level(int level) {
 
 // The forces of a block's elements, then its nodes; what supports do comes later.
 double Piece::compute_and_move(const Block& b, StageClock& clock) {
-  const KernelTable& k = kernels();
+  const KernelTable& k = kernels_;
   const ForceReduction& r = reduction_;
   if (b.patch_begin < b.patch_end) k.patch_forces(axial_, r.patches.data(), b.patch_begin, b.patch_end);
   k.axial_spans[plan_.damped][plan_.ledger](axial_, r.spans.data(), b.span_begin, b.span_end);
@@ -228,12 +228,12 @@ double Piece::compute_and_move(const Block& b, StageClock& clock) {
 }
 
 void Piece::hold_before(Index begin, Index end) {
-  if (begin < end) kernels().hold_before(node_, constraints_.data(), begin, end, held_.data());
+  if (begin < end) kernels_.hold_before(node_, constraints_.data(), begin, end, held_.data());
 }
 
 void Piece::hold_after(Index begin, Index end) {
   if (begin < end)
-    kernels().hold_after(node_, constraints_.data(), begin, end, held_.data(), reactions_.data());
+    kernels_.hold_after(node_, constraints_.data(), begin, end, held_.data(), reactions_.data());
 }
 
 double Piece::step(double time, double motion, StageClock& clock) {
@@ -243,7 +243,7 @@ double Piece::step(double time, double motion, StageClock& clock) {
   hold_before(0, constraints);
   double greatest = 0;
   for (const Block& block : reduction_.blocks) greatest = std::max(greatest, compute_and_move(block, clock));
-  greatest = std::max(greatest, kernels().load_nodes(node_, contacts_.loads(), contacts_.load_count()));
+  greatest = std::max(greatest, kernels_.load_nodes(node_, contacts_.loads(), contacts_.load_count()));
   hold_after(0, constraints);
   clock.tick(StageId::gather_and_move);
   return greatest;

@@ -34,6 +34,7 @@ class Piece {
   std::vector<Index> ghost_places() const, ghosts() const;
 
   NearContacts& contacts() { return contacts_; }
+  const double* share() const { return share_.data(); }  ///< node_share by local node
 
   /// Works from now on with this state: on it (whole), or on copies of all local nodes.
   void take(State& state);
@@ -62,6 +63,7 @@ class Piece {
   void hold_before(Index begin, Index end);
   void hold_after(Index begin, Index end);
 
+  const KernelTable& kernels_ = kernels();
   StepPlan plan_;
   bool whole_;
   int levels_ = 1;

@@ -72,7 +72,7 @@ void Stepper::renew_contacts(State& state) {
   motion_ = 0;
   contacts_valid_ = true;
   NearContacts& all = threads_ == 1 ? pieces_[0]->contacts() : looked_at_;
-  all.renew(cinch::all_contacts(*model_, contacts_, state), contacts_.margin());
+  all.renew(cinch::all_contacts(*model_, contacts_, state), contacts_.margin(), node_share_.data());
   if (threads_ > 1 && !pieces_.empty()) hand_out_contacts(state);
   seconds_[static_cast<std::size_t>(StageId::broadphase)] += clock_seconds() - begin;
 }
