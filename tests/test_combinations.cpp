@@ -86,7 +86,8 @@ end = { on = "ring.r" }
   EXPECT_TRUE(assembly.rings[0].parts.empty());  // it lies inside the wire for good
   const Frame now = swing.frame();
   EXPECT_EQ(now.position[static_cast<std::size_t>(assembly.rings[0].node)], Vec3(0, 0, 0));
-  EXPECT_NEAR(now.position[static_cast<std::size_t>(assembly.node_of("thread.a.start"))].norm(), 0.5, 5e-3);  // the thread is still at rest beside it
+  EXPECT_NEAR(now.position[static_cast<std::size_t>(assembly.node_of("thread.a.start"))].norm(), 0.5,
+              5e-3);  // the thread is still at rest beside it
 }
 
 TEST(Combinations, SupportsOfClosingThreadsHoldFromTheClosingTimeOn) {

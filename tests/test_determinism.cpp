@@ -182,6 +182,43 @@ TEST(Determinism, SmallLargeCapture) {
 }
 TEST(Determinism, FullLargeCapture) { expect_same_for_all_threads(full_large_capture(), {2, 7}, 0, true); }
 
+// A hanging net too large for the cache, without contacts: several steps go through it in one sweep.
+const char* const hanging_net = R"(schema = 1
+[time]
+end_s = 1
+step_s = 1e-6
+[gravity]
+acceleration_m_s2 = [0, 0, -9.81]
+[material.m]
+youngs_modulus_Pa = 1e9
+density_kg_m3 = 970
+damping_ratio = 0.1
+[net.main]
+material = "m"
+diameter_m = 0.002
+size_m = [10, 10]
+mesh_m = 0.1
+elements_per_side = 2
+stowed_factor = 1.001
+[net.main.node]
+top_left = { support = "fixed" }
+"knot.50.50" = { support = "fixed" }
+top_right = { support = "guided", axis = [1, 0, 0] }
+)";
+
+TEST(Determinism, SweepsOfALargeNet) {
+  Simulation step_by_step(parse_case(hanging_net, "net.toml"), 1);
+  for (int step = 0; step < 100; ++step) step_by_step.stepper().advance(step_by_step.state(), 1);
+  const Outcome expected = outcome_of(step_by_step);
+  for (const int threads : {1, 2, 3, 7}) {
+    SCOPED_TRACE(std::to_string(threads) + " threads");
+    Simulation simulation(parse_case(hanging_net, "net.toml"), threads);
+    simulation.advance_to(33);  // no multiple of the steps of a sweep
+    simulation.advance_to(100);
+    expect_same(outcome_of(simulation), expected);
+  }
+}
+
 // ----------------------------------------------------------------------------------------------------
 // Looking changes nothing
 

@@ -35,6 +35,16 @@ void check_contacts(const Preparation& preparation, const State& state) {
       check("target", preparation.assembly.balls[b].name, tally);
 }
 
+bool speeds_allowed(const State& state, double speed_limit) {
+  const double limit = speed_limit * speed_limit;
+  bool allowed = true;
+  for (std::size_t i = 0; i < state.vx.size(); ++i) {
+    const double x = state.vx[i], y = state.vy[i], z = state.vz[i];
+    allowed &= x * x + y * y + z * z <= limit;  // false for what is not a number, too
+  }
+  return allowed;
+}
+
 void report_runaway(const Preparation& preparation, const Model& model, const State& state,
                     double speed_limit) {
   const double time = static_cast<double>(state.step) * preparation.dt;

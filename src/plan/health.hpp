@@ -9,6 +9,9 @@ namespace cinch {
 /// grow without bound.
 void check_contacts(const Preparation& preparation, const State& state);
 
+/// True if the speed of every node is finite and within `speed_limit` (m/s).
+bool speeds_allowed(const State& state, double speed_limit);
+
 /// Throws NumericalError that names the first node without a finite speed, else the fastest.
 [[noreturn]] void report_runaway(const Preparation& preparation, const Model& model, const State& state,
                                  double speed_limit);

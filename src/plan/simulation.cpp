@@ -14,7 +14,11 @@ namespace {
 
 constexpr std::size_t at(Index i) { return static_cast<std::size_t>(i); }
 
-constexpr std::int64_t health_interval = 4096;  ///< steps between two looks at the contacts' stiffness
+// Steps between two looks at speeds and at the contacts' stiffness: a second of a large net's run time at
+// most.
+std::int64_t health_interval(Index nodes) {
+  return std::clamp<std::int64_t>((1 << 22) / std::max(nodes, 1), 256, 4096);
+}
 
 // Positions of the nodes that exist before closing in static equilibrium; closing nodes are laid on them
 // again.
@@ -119,6 +123,7 @@ void Simulation::start() {
     state_.vz[i] -= half * begin.acceleration[i].z();
   }
   drop_negative_zeros(state_);
+  remember();
   ledger_.open(begin, m, state_, work);
   const Frame first = frame();
   node_start_ = first.position;
@@ -143,6 +148,7 @@ void Simulation::close() {
   const Momentum held = half_step_momentum(model(), state_);
   const Observation separated = observe(*stepper_, state_);
   ledger_.book_closing(before, after, laid, separated, state_, before_model, model());
+  remember();
   ledger_.book_supports(
       {held.linear - free.linear, Vec3::Zero()});  // the angular part is in book_closing's difference
   for (const Mechanism& mechanism : scene_.mechanisms)
@@ -152,7 +158,7 @@ void Simulation::close() {
 void Simulation::advance_to(std::int64_t target) {
   while (state_.step < target) {
     if (!closed_phase() && state_.step == preparation_.closing_step) close();
-    std::int64_t stop = std::min(target, state_.step + health_interval);
+    std::int64_t stop = std::min(target, state_.step + health_interval(model().nodes));
     if (!closed_phase()) stop = std::min(stop, preparation_.closing_step);
     stepper_->advance(state_, stop - state_.step);
     check_health();
@@ -164,6 +170,20 @@ void Simulation::check_health() {
   if (!scene_.time.allow_unstable)
     check_contacts(preparation_, state_);  // first: an impact too hard is what makes a node run away
   if (!stepper_->healthy()) report_runaway(preparation_, model(), state_, scene_.time.speed_limit);
+  if (!speeds_allowed(state_, scene_.time.speed_limit)) find_fault();
+  if (state_.step - sound_.step >= health_interval(model().nodes)) remember();
+}
+
+void Simulation::remember() { sound_ = state_; }
+
+// Scenes without contacts do not watch speeds at every step: the step that went wrong is found by doing
+// again, one by one, those since the last sound state.
+void Simulation::find_fault() {
+  const std::int64_t seen = state_.step;
+  state_ = sound_;
+  stepper_->start_over();
+  while (state_.step < seen && speeds_allowed(state_, scene_.time.speed_limit)) stepper_->advance(state_, 1);
+  report_runaway(preparation_, model(), state_, scene_.time.speed_limit);
 }
 
 namespace {

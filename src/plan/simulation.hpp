@@ -17,7 +17,7 @@ class Simulation {
   explicit Simulation(const Scene& scene, int threads = 0);
 
   /// Advances to `step`; closing happens on the way. Throws NumericalError (node, ring or element, time,
-  /// likely cause) and leaves the state as it was when the fault was seen.
+  /// likely cause) and leaves the state of the step that went wrong.
   void advance_to(std::int64_t step);
 
   /// Everything a frame holds, closing threads laid on their carriers before the closing time.
@@ -50,6 +50,8 @@ class Simulation {
   void enter_phase(std::size_t phase);
   void close();
   void check_health();
+  void remember();
+  [[noreturn]] void find_fault();
   std::vector<Event> all_events() const;
 
   Scene scene_;
@@ -57,6 +59,7 @@ class Simulation {
   int threads_;
   std::size_t phase_ = 0;
   State state_;
+  State sound_;  ///< the last state that was looked at and kept; faults are searched for from there
   std::unique_ptr<Stepper> stepper_;
   Ledger ledger_;
   std::vector<ResultModel::ProbeColumn> probe_columns_;

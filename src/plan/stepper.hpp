@@ -28,6 +28,9 @@ class Stepper {
   /// healthy().
   void advance(State& state, std::int64_t steps);
 
+  /// To be called when the state was set back to that of an earlier step.
+  void start_over() { contacts_valid_ = false, healthy_ = true; }
+
   /// Computes the contact forces of the state as it stands and books nothing.
   void evaluate(State& state);
   /// Contact forces on nodes, as last evaluated, in the user's numbers.

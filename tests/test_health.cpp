@@ -1,0 +1,102 @@
+// A run that goes wrong tells the first step and node that did, however seldom the solver looks.
+#include <gtest/gtest.h>
+
+#include <limits>
+#include <string>
+
+#include "base/error.hpp"
+#include "plan/health.hpp"
+#include "support/scenes.hpp"
+
+namespace {
+
+using namespace cinch;
+using namespace cinch::test;
+
+// A net without contacts, stretched by 0.1 %, at three times its stable step; `meshes` a side.
+Scene unstable_net(int meshes) {
+  const std::string side = std::to_string(0.1 * meshes);
+  Scene scene = scene_of(R"(schema = 1
+[time]
+end_s = 1
+speed_limit_m_s = 50
+allow_unstable = true
+[material.m]
+youngs_modulus_Pa = 1e9
+density_kg_m3 = 970
+[net.main]
+material = "m"
+diameter_m = 0.002
+size_m = [)" + side + ", " +
+                         side + R"(]
+mesh_m = 0.1
+stowed_factor = 1.001
+)");
+  scene.time.step = 3 * prepare(scene).stable_step;
+  return scene;
+}
+
+std::string fault_of(Simulation& sim, std::int64_t end) {
+  try {
+    sim.advance_to(end);
+  } catch (const NumericalError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+// The same run, looked at after every step.
+std::string fault_step_by_step(Simulation& sim, double speed_limit) {
+  while (sim.step() < 4000 && speeds_allowed(sim.state(), speed_limit)) sim.stepper().advance(sim.state(), 1);
+  try {
+    report_runaway(sim.preparation(), sim.model(), sim.state(), speed_limit);
+  } catch (const NumericalError& error) {
+    return error.what();
+  }
+}
+
+// 12 meshes: one block a step; 100 meshes: several steps in one sweep.
+class Runaway : public testing::TestWithParam<std::pair<int, int>> {};
+
+TEST_P(Runaway, IsToldWithItsFirstStepAndNode) {
+  const auto [meshes, threads] = GetParam();
+  const Scene scene = unstable_net(meshes);
+  Simulation plain(scene, 1), sim(scene, threads);
+  const std::string expected = fault_step_by_step(plain, scene.time.speed_limit);
+  EXPECT_EQ(fault_of(sim, 4096), expected);
+  EXPECT_LT(sim.step(), 4000);
+  EXPECT_EQ(sim.step(), plain.step());
+  EXPECT_TRUE(sim.state().x == plain.state().x && sim.state().vz == plain.state().vz);
+}
+
+INSTANTIATE_TEST_SUITE_P(Health, Runaway,
+                         testing::Values(std::pair{12, 1}, std::pair{12, 2}, std::pair{100, 1},
+                                         std::pair{100, 3}),
+                         [](const auto& one) {
+                           return std::to_string(one.param.first) + "_meshes_" +
+                                  std::to_string(one.param.second) + "_threads";
+                         });
+
+// Whatever makes a speed that is not a number: the node is named.
+TEST(Health, ASpeedThatIsNoNumberIsSeen) {
+  Scene scene = unstable_net(12);
+  scene.time.step *= 0.2;
+  Simulation sim(scene, 1);
+  EXPECT_EQ(fault_of(sim, 100), "");
+  const Index node = 40;
+  sim.state().vy[at(node)] = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_FALSE(speeds_allowed(sim.state(), scene.time.speed_limit));
+  EXPECT_THROW(sim.advance_to(200), NumericalError);
+}
+
+TEST(Health, SpeedsUpToTheLimitAreAllowed) {
+  Simulation sim(unstable_net(12), 1);
+  State state = sim.state();
+  state.vx.back() = 3, state.vy.back() = 4;
+  EXPECT_TRUE(speeds_allowed(state, 5));
+  EXPECT_FALSE(speeds_allowed(state, 4.99));
+  state.vz.back() = std::numeric_limits<double>::infinity();
+  EXPECT_FALSE(speeds_allowed(state, 1e100));
+}
+
+}  // namespace
