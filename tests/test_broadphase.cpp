@@ -188,7 +188,7 @@ void look(Simulation& simulation, Watched& seen) {
   State& state = simulation.state();
   const Assembly& assembly = simulation.preparation().assembly;
   const Model& model = simulation.model();
-  simulation.stepper().evaluate(state);
+  simulation.look();
   const ContactList& list = simulation.stepper().contacts();
   const auto listed = [&](Index begin, Index end, Index element) {
     for (Index i = begin; i < end; ++i)
@@ -242,7 +242,7 @@ TEST(Broadphase, ARunningCaptureMissesNoContact) {
     while (simulation.stepper().contacts().rebuilds() == lists && simulation.step() < 40000) {
       if (simulation.step() % 16 == 0) look(simulation, seen);
       simulation.advance_to(simulation.step() + 1);
-      simulation.stepper().evaluate(simulation.state());
+      simulation.look();
     }
     look(simulation, seen);
     simulation.advance_to(simulation.step() + 400);

@@ -229,8 +229,10 @@ TEST(Determinism, FramesOnTheWayChangeNothing) {
     for (std::int64_t step = 0; step < one.steps; step = std::min(step + 37, one.steps)) {
       looked_at.advance_to(step);
       const State before = looked_at.state();
-      const Frame frame = looked_at.frame();
-      looked_at.note_events(frame);
+      const Look& now = looked_at.look();
+      looked_at.note_events(now);
+      looked_at.probe_row(now);
+      looked_at.frame(now);
       looked_at.summary();
       ASSERT_TRUE(before.x == looked_at.state().x && before.vz == looked_at.state().vz &&
                   before.dissipated == looked_at.state().dissipated);

@@ -107,14 +107,14 @@ class Run {
     const bool frame_due = frames_.due(step), probe_due = probes_.due(step);
     if (!frame_due && !probe_due) return;
     const double t0 = now();
-    const Frame frame = simulation_.frame();
+    const Look& look = simulation_.look();
     if (probe_due) {
-      simulation_.note_events(frame);
-      const std::vector<double> row = simulation_.probe_row(frame);
+      simulation_.note_events(look);
+      const std::vector<double> row = simulation_.probe_row(look);
       observing_ += now() - t0;
-      recorder_.probes(frame.time, row);
+      recorder_.probes(look.time(), row);
     }
-    if (frame_due) write(frame);
+    if (frame_due) write(simulation_.frame(look));
   }
 
   void record_frame() {

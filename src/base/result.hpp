@@ -106,8 +106,8 @@ inline constexpr double residual_limit = 0.01;
 
 /// The verdict for machines: written as summary.json (field names as there).
 struct Summary {
-  std::string status;   ///< "done", "failed", "interrupted", "terminated"
-  std::string message;  ///< why it stopped, when it did not end as planned
+  std::string status;                 ///< "done", "failed", "interrupted", "terminated"
+  std::string message;                ///< why it stopped, when it did not end as planned
   std::vector<std::string> warnings;  ///< what makes the result doubtful
   std::string case_name, version, commit, compiler, isa, host;
   int threads = 1;

@@ -47,7 +47,8 @@ const Section<TimeSpec>& time_section() {
           {{.name = "safety",
             .range = above(0, 1),
             .fallback = "0.5",
-            .meaning = "Automatic step over the stable step; at most 0.2 where a material has `damping_ratio` < 0.01.",
+            .meaning = "Automatic step over the stable step; at most 0.2 where a material has "
+                       "`damping_ratio` < 0.01.",
             .source = "tension-only threads without damping gain energy well below the linear bound"},
            into(&TimeSpec::safety)},
           {{.name = "allow_unstable",

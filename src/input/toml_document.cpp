@@ -10,8 +10,8 @@ namespace cinch {
 [[noreturn]] static void refuse_toml(const char* condition) { throw std::logic_error(condition); }
 }  // namespace cinch
 
-// Some malformed texts reach an assertion of toml++ 3.3 (issue 294 there): make that an ordinary error. With NDEBUG
-// the header would replace it by an assumption, and such a text by undefined behaviour.
+// Some malformed texts reach an assertion of toml++ 3.3 (issue 294 there): make that an ordinary error. With
+// NDEBUG the header would replace it by an assumption, and such a text by undefined behaviour.
 #undef NDEBUG
 #define TOML_ASSERT(condition) ((condition) ? void() : cinch::refuse_toml(#condition))
 #include <toml++/toml.h>

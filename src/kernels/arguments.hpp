@@ -32,12 +32,17 @@ struct Patch {
   Index to, from, count;
 };
 
+/// What elements add to their row of the ledger.
+struct Book {
+  enum Sum { nothing, power, energy };
+};
+
 struct AxialArguments {
   const double *x, *y, *z, *vx, *vy, *vz;  ///< node: position, velocity half a step earlier
   const Index* parameter;                  ///< group: its row of the palette
   const double* palette;                   ///< row x (k lanes, c lanes, l0 lanes): N/m, N s/m, m
   double *fx, *fy, *fz;                    ///< force: on the element's end a (minus it acts on b), N
-  double* dissipated;                      ///< ledger row x lanes: sum of damper power over the steps, W
+  double* booked;                          ///< ledger row x lanes: damper power, W, or elastic energy, J
 };
 
 /// Nodes that follow each other and whose element forces do so, too: node + k takes the sum of force[plus +
@@ -82,6 +87,21 @@ struct NodeArguments {
   const double *fx, *fy, *fz;        ///< force, N
   double gravity[3];                 ///< dt g, m/s
   double dt;                         ///< s
+};
+
+/// What node_energies sums up.
+struct EnergyArguments {
+  const double *x, *y, *z, *vx, *vy, *vz;  ///< node
+  const double *gain_x, *gain_y, *gain_z;  ///< node: what the next step adds to the speeds, m/s
+  double share;                            ///< of the gain at the time looked at
+  const double* mass;                      ///< node, kg
+  double gravity[3];                       ///< m/s^2
+  Index nodes;
+};
+
+/// Kinetic energy at velocities v + share gain, and that in the field of gravity, sum of -m g.x; J.
+struct NodeEnergies {
+  double kinetic, gravity;
 };
 
 /// One element, or one mass as a sphere (a == b), that may touch one ring or ball before the broadphase

@@ -8,6 +8,7 @@ namespace cinch::CINCH_ISA {
 namespace {
 
 using kernel::AxialArguments;
+using kernel::Book;
 using kernel::lanes;
 using kernel::Link;
 using kernel::Patch;
@@ -29,9 +30,9 @@ inline SpanView view(const AxialArguments& g, const Span& s) {
           g.palette,     s.step};
 }
 
-// One group of elements; adds their dampers' powers to `sums`, lane by lane, so that the bits are the same
-// for every vector width. In a chain each upper end is the next lower one.
-template <bool damped, bool ledger, bool chain>
+// One group of elements; adds what is booked to `sums`, lane by lane, so that the bits are the same for every
+// vector width. In a chain each upper end is the next lower one.
+template <bool damped, Book::Sum book, bool chain>
 inline void group(const SpanView& s, std::ptrdiff_t number, double* __restrict sums) {
   const double* __restrict const row =
       s.palette + 3 * lanes * static_cast<std::ptrdiff_t>(s.parameter[number]);
@@ -46,46 +47,47 @@ inline void group(const SpanView& s, std::ptrdiff_t number, double* __restrict s
     s.fx[i] = item.per_length * rx;
     s.fy[i] = item.per_length * ry;
     s.fz[i] = item.per_length * rz;
-    if (ledger) sums[lane] += item.power;
+    if (book == Book::power) sums[lane] += item.power;
+    if (book == Book::energy) sums[lane] += item.energy;
   }
 }
 
 template <bool damped, bool chain>
 inline void groups(const SpanView& s, const Span& span) {
-  for (std::ptrdiff_t i = 0; i < span.groups; ++i) group<damped, false, chain>(s, i, nullptr);
+  for (std::ptrdiff_t i = 0; i < span.groups; ++i) group<damped, Book::nothing, chain>(s, i, nullptr);
 }
 
-// The same with the powers added to the rows of the ledger.
-template <bool chain>
-inline void booked_groups(const SpanView& s, const Span& span, double* dissipated) {
+// The same with sums added to the rows of the ledger.
+template <bool damped, Book::Sum book, bool chain>
+inline void booked_groups(const SpanView& s, const Span& span, double* booked) {
   constexpr Index row_groups = kernel::grain / lanes;
   const Index first = span.row_node / lanes;  // number of the first group in the whole scene
   for (Index i = 0; i < span.groups;) {
     const Index row_number = (first + i) / row_groups;
     const Index row_end = (row_number + 1) * row_groups - first;
     const Index end = row_end < span.groups ? row_end : span.groups;
-    double* __restrict const row = dissipated + row_number * lanes;
+    double* __restrict const row = booked + row_number * lanes;
     alignas(64) double sums[lanes];
     for (Index lane = 0; lane < lanes; ++lane) sums[lane] = row[lane];
-    for (; i < end; ++i) group<true, true, chain>(s, i, sums);
+    for (; i < end; ++i) group<damped, book, chain>(s, i, sums);
     for (Index lane = 0; lane < lanes; ++lane) row[lane] = sums[lane];
   }
 }
 
-template <bool damped, bool ledger, bool chain>
+template <bool damped, Book::Sum book, bool chain>
 inline void compute(const AxialArguments& g, const Span& span) {
-  if (damped && ledger && span.row_node >= 0) booked_groups<chain>(view(g, span), span, g.dissipated);
+  if (book != Book::nothing && span.row_node >= 0)
+    booked_groups<damped, book, chain>(view(g, span), span, g.booked);
   else groups<damped, chain>(view(g, span), span);
 }
 
-template <bool damped, bool ledger>
+template <bool damped, Book::Sum book>
 void axial_spans(const AxialArguments& g, const Span* spans, Index begin, Index end) {
   for (Index i = begin; i < end; ++i)
-    spans[i].step == 1 ? compute<damped, ledger, true>(g, spans[i])
-                       : compute<damped, ledger, false>(g, spans[i]);
+    spans[i].step == 1 ? compute<damped, book, true>(g, spans[i]) : compute<damped, book, false>(g, spans[i]);
 }
 
-template <bool damped, bool ledger>
+template <bool damped, Book::Sum book>
 void axial_links(const AxialArguments& g, const Link* links, Index begin, Index end) {
   for (Index i = begin; i < end; ++i) {
     const Link& l = links[i];
@@ -96,7 +98,8 @@ void axial_links(const AxialArguments& g, const Link* links, Index begin, Index 
     g.fx[l.force] = item.per_length * r.x;
     g.fy[l.force] = item.per_length * r.y;
     g.fz[l.force] = item.per_length * r.z;
-    if (damped && ledger && l.row >= 0) g.dissipated[l.row * lanes] += item.power;
+    if (book != Book::nothing && l.row >= 0)
+      g.booked[l.row * lanes] += book == Book::power ? item.power : item.energy;
   }
 }
 
@@ -112,19 +115,20 @@ void patch_forces(const AxialArguments& g, const Patch* patches, Index begin, In
   }
 }
 
-template <bool damped, bool ledger>
+template <bool damped, Book::Sum book>
 void fill(KernelTable& table) {
-  table.axial_spans[damped][ledger] = axial_spans<damped, ledger>;
-  table.axial_links[damped][ledger] = axial_links<damped, ledger>;
+  table.axial_spans[damped][book] = axial_spans<damped, book>;
+  table.axial_links[damped][book] = axial_links<damped, book>;
 }
 
 }  // namespace
 
 void fill_axial(KernelTable& table) {
-  fill<false, false>(table);
-  fill<false, true>(table);
-  fill<true, false>(table);
-  fill<true, true>(table);
+  fill<false, Book::nothing>(table);
+  fill<false, Book::energy>(table);
+  fill<true, Book::nothing>(table);
+  fill<true, Book::power>(table);
+  fill<true, Book::energy>(table);
   table.patch_forces = patch_forces;
 }
 

@@ -11,6 +11,7 @@ struct Axial {
   double tension;     ///< N
   double per_length;  ///< T / l, N/m: the force on end a is this times (x_b - x_a)
   double power;       ///< dissipated, W
+  double energy;      ///< stored, J
 };
 
 /// One element from r . r and r . v, r its ends' relative position and v their velocity. Takes and gives
@@ -24,7 +25,7 @@ inline Axial axial_law(double rr, double rv, double k, double c, double l0) {
   const double spring = k * stretch;
   const double pull = spring + c * rate;
   const double tension = pull > 0 ? pull : 0.0;
-  return {tension, tension * inverse, (tension - spring) * rate};
+  return {tension, tension * inverse, (tension - spring) * rate, 0.5 * spring * stretch};
 }
 
 }  // namespace cinch::CINCH_ISA

@@ -2,7 +2,6 @@
 
 #include <cstdlib>
 #include <cstring>
-#include <initializer_list>
 #include <string>
 
 #include "base/error.hpp"
@@ -15,6 +14,14 @@ namespace cinch {
   void fill_ring_contact(KernelTable& table); \
   void fill_ball_contact(KernelTable& table); \
   void fill_node_update(KernelTable& table);  \
+  void fill_energy(KernelTable& table);       \
+  void fill(KernelTable& table) {             \
+    fill_axial(table);                        \
+    fill_ring_contact(table);                 \
+    fill_ball_contact(table);                 \
+    fill_node_update(table);                  \
+    fill_energy(table);                       \
+  }                                           \
   }
 CINCH_DECLARE_ISA(base)
 #ifdef CINCH_X86_ISAS
@@ -24,12 +31,10 @@ CINCH_DECLARE_ISA(v4)
 
 namespace {
 
-using Fill = void (*)(KernelTable&);
-
-KernelTable make_table(const char* isa, Fill axial, Fill ring, Fill ball, Fill node) {
+KernelTable make_table(const char* isa, void (*fill)(KernelTable&)) {
   KernelTable table{};
   table.isa = isa;
-  for (const Fill fill : {axial, ring, ball, node}) fill(table);
+  fill(table);
   return table;
 }
 
@@ -40,19 +45,14 @@ KernelTable choose() {
   const bool v3_here = __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma");
   const bool v4_here = v3_here && __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512vl") &&
                        __builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("avx512bw");
-  if (v4_here && allowed("v4"))
-    return make_table("v4", v4::fill_axial, v4::fill_ring_contact, v4::fill_ball_contact,
-                      v4::fill_node_update);
-  if (v3_here && allowed("v3"))
-    return make_table("v3", v3::fill_axial, v3::fill_ring_contact, v3::fill_ball_contact,
-                      v3::fill_node_update);
+  if (v4_here && allowed("v4")) return make_table("v4", v4::fill);
+  if (v3_here && allowed("v3")) return make_table("v3", v3::fill);
 #endif
   if (!allowed("base"))
     throw CaseError(std::string("error: CINCH_ISA=") + wanted +
                     ": allowed on this machine are base, v3, v4 as far as it "
                     "has them");
-  return make_table("base", base::fill_axial, base::fill_ring_contact, base::fill_ball_contact,
-                    base::fill_node_update);
+  return make_table("base", base::fill);
 }
 
 }  // namespace

@@ -8,10 +8,10 @@ namespace cinch {
 /// Entries that take begin and end work on that stretch of the list before them.
 struct KernelTable {
   const char* isa;  ///< "base" (x86-64, or whatever the compiler targets), "v3", "v4"
-  /// [damped][ledger]: element forces of spans.
-  void (*axial_spans[2][2])(const kernel::AxialArguments&, const kernel::Span*, Index begin, Index end);
-  /// [damped][ledger]: element forces of links.
-  void (*axial_links[2][2])(const kernel::AxialArguments&, const kernel::Link*, Index begin, Index end);
+  /// [damped][what is booked]: element forces of spans. Without damping there is no power to book.
+  void (*axial_spans[2][3])(const kernel::AxialArguments&, const kernel::Span*, Index begin, Index end);
+  /// [damped][what is booked]: element forces of links.
+  void (*axial_links[2][3])(const kernel::AxialArguments&, const kernel::Link*, Index begin, Index end);
   void (*patch_forces)(const kernel::AxialArguments&, const kernel::Patch*, Index begin, Index end);
   /// [gravity][watch]: gathers element forces and moves nodes; returns the greatest squared speed, if
   /// watched.
@@ -26,6 +26,7 @@ struct KernelTable {
   /// Takes off what the supports do not allow and books it in `reactions` (constraint).
   void (*hold_after)(const kernel::NodeArguments&, const kernel::Constraint*, Index begin, Index end,
                      const kernel::Held*, kernel::Reaction* const* reactions);
+  kernel::NodeEnergies (*node_energies)(const kernel::EnergyArguments&);
   /// Contacts of the pairs pairs[near[i]], i < count, in the order of their rings. Writes forces on nodes to
   /// `loads` (room for four a pair) and the distance left to a contact to gap[i], m (negative:
   /// penetration). Returns the number of loads.
@@ -45,6 +46,7 @@ void fill_axial(KernelTable& table);
 void fill_ring_contact(KernelTable& table);
 void fill_ball_contact(KernelTable& table);
 void fill_node_update(KernelTable& table);
+void fill_energy(KernelTable& table);
 }  // namespace CINCH_ISA
 
 }  // namespace cinch

@@ -1,7 +1,7 @@
 // ResultModel <-> the parts of the result file that do not change during a run.
 #pragma once
-#include "output/hdf5_file.hpp"
 #include "base/result.hpp"
+#include "output/hdf5_file.hpp"
 
 namespace cinch {
 

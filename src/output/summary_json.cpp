@@ -80,7 +80,8 @@ double time_or_never(const Json& object, const char* name) {
 void read_program(const Json& json, Summary& summary) {
   json.at("status").get_to(summary.status);
   json.at("message").get_to(summary.message);
-  if (json.contains("warnings")) json.at("warnings").get_to(summary.warnings);  // results before it was written
+  if (json.contains("warnings"))
+    json.at("warnings").get_to(summary.warnings);  // results before it was written
   json.at("case").get_to(summary.case_name);
   json.at("version").get_to(summary.version);
   json.at("commit").get_to(summary.commit);

@@ -48,11 +48,4 @@ void hold_supports(const Model& model, State& state) {
   }
 }
 
-void append_laid_nodes(const Assembly& assembly, std::vector<Vec3>& position, std::vector<Vec3>& velocity) {
-  for (const Lay& lay : assembly.lays) {
-    position.push_back((1 - lay.s) * position[at(lay.a)] + lay.s * position[at(lay.b)] + lay.offset);
-    velocity.push_back((1 - lay.s) * velocity[at(lay.a)] + lay.s * velocity[at(lay.b)]);
-  }
-}
-
 }  // namespace cinch

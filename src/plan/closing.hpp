@@ -18,7 +18,4 @@ void separate(const Assembly& assembly, State& state);
 /// that is fixed from the closing time on stops there.
 void hold_supports(const Model& model, State& state);
 
-/// Places of the closing nodes for pictures before the closing time: positions and velocities are appended.
-void append_laid_nodes(const Assembly& assembly, std::vector<Vec3>& position, std::vector<Vec3>& velocity);
-
 }  // namespace cinch

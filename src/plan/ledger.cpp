@@ -42,19 +42,19 @@ Momentum outside_impulse(const State& state) {
   return sum;
 }
 
-void Ledger::open(const Observation& start, const Model& model, const State& state, double work) {
-  gravity_zero_ = start.energy.gravity;
+void Ledger::open(const Energies& start, const Model& model, const State& state, double work) {
+  gravity_zero_ = start.gravity;
   work_ = work;
-  initial_ = stored(start.energy) - gravity_zero_ - work;
+  initial_ = stored(start) - gravity_zero_ - work;
   start_ = half_step_momentum(model, state);
 }
 
-void Ledger::book_closing(const Observation& before, const State& state_before, const Observation& laid,
-                          const Observation& separated, const State& state_after, const Model& model_before,
+void Ledger::book_closing(const Energies& before, const State& state_before, const Energies& laid,
+                          const Energies& separated, const State& state_after, const Model& model_before,
                           const Model& model_after) {
-  booked_activation_ += stored(before.energy) - stored(laid.energy);
-  work_ += stored(separated.energy) - stored(laid.energy);
-  carried_damper_ += before.energy.dissipated_damper;
+  booked_activation_ += stored(before) - stored(laid);
+  work_ += stored(separated) - stored(laid);
+  carried_damper_ += before.dissipated_damper;
   const Momentum reactions = reaction_impulse(state_before);
   carried_outside_.linear += reactions.linear;
   carried_outside_.angular += reactions.angular;
@@ -68,8 +68,8 @@ void Ledger::book_supports(const Momentum& impulse) {
   carried_outside_.angular += impulse.angular;
 }
 
-Energies Ledger::energies(const Observation& now) {
-  Energies e = now.energy;
+Energies Ledger::energies(const Energies& now) {
+  Energies e = now;
   e.gravity -= gravity_zero_;
   gravity_change_ = std::max(gravity_change_, std::abs(e.gravity));
   e.dissipated_damper += carried_damper_;

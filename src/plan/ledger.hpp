@@ -4,9 +4,14 @@
 // Gravity counts from its value at the start. The residual is taken relative to the largest of: the initial
 // energy, the work put in by separations, and the greatest change of gravitational energy (gravity's work).
 #pragma once
-#include "plan/observer.hpp"
+#include "plan/look.hpp"
 
 namespace cinch {
+
+struct Momentum {
+  Vec3 linear = Vec3::Zero();   ///< kg m/s
+  Vec3 angular = Vec3::Zero();  ///< kg m^2/s about the origin
+};
 
 /// Momentum of a state at its half-step velocities, about the origin: central differences keep both exactly
 /// but for rounding, with x(n) x v(n-1/2) as angular momentum.
@@ -18,15 +23,15 @@ Momentum outside_impulse(const State& state);
 class Ledger {
  public:
   /// Opens the books with the state at t = 0; `work` has been put in just before (separation at t = 0), J.
-  void open(const Observation& start, const Model& model, const State& state, double work);
+  void open(const Energies& start, const Model& model, const State& state, double work);
   /// Books the laying of the closing threads and the separation: three looks at the same instant.
-  void book_closing(const Observation& before, const State& state_before, const Observation& laid,
-                    const Observation& separated, const State& state_after, const Model& model_before,
+  void book_closing(const Energies& before, const State& state_before, const Energies& laid,
+                    const Energies& separated, const State& state_after, const Model& model_before,
                     const Model& model_after);
   /// Impulse that supports gave when they stopped a node at the closing time.
   void book_supports(const Momentum& impulse);
-  /// All terms at the time of `now`.
-  Energies energies(const Observation& now);
+  /// All terms at the time of a look that saw `now`.
+  Energies energies(const Energies& now);
 
   double initial() const { return initial_; }
   double scale() const;

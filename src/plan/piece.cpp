@@ -210,19 +210,33 @@ void Piece::use_level(int level) {
   node_.fx = axial_.fx, node_.fy = axial_.fy, node_.fz = axial_.fz;
 }
 
-// The forces of a block's elements, then its nodes; what supports do comes later.
-double Piece::compute_and_move(const Block& b, StageClock& clock) {
-  const KernelTable& k = kernels_;
+kernel::Book::Sum Piece::step_book() const {
+  return plan_.damped && plan_.ledger ? kernel::Book::power : kernel::Book::nothing;
+}
+
+void Piece::compute(const Block& b, kernel::Book::Sum book) {
   const ForceReduction& r = reduction_;
-  if (b.patch_begin < b.patch_end) k.patch_forces(axial_, r.patches.data(), b.patch_begin, b.patch_end);
-  k.axial_spans[plan_.damped][plan_.ledger](axial_, r.spans.data(), b.span_begin, b.span_end);
+  if (b.patch_begin < b.patch_end)
+    kernels_.patch_forces(axial_, r.patches.data(), b.patch_begin, b.patch_end);
+  kernels_.axial_spans[plan_.damped][book](axial_, r.spans.data(), b.span_begin, b.span_end);
   if (b.link_begin < b.link_end)
-    k.axial_links[plan_.damped][plan_.ledger](axial_, r.links.data(), b.link_begin, b.link_end);
-  clock.tick(StageId::axial_forces);
-  double greatest = k.move_nodes[plan_.gravity][plan_.contacts()](node_, r.stretches.data(), b.stretch_begin,
-                                                                  b.stretch_end);
+    kernels_.axial_links[plan_.damped][book](axial_, r.links.data(), b.link_begin, b.link_end);
+}
+
+// What supports do comes later.
+double Piece::move(const Block& b, bool watch) {
+  const ForceReduction& r = reduction_;
+  double greatest =
+      kernels_.move_nodes[plan_.gravity][watch](node_, r.stretches.data(), b.stretch_begin, b.stretch_end);
   if (b.kick_begin < b.kick_end)
-    greatest = std::max(greatest, k.kick_nodes(node_, r.kicks.data(), b.kick_begin, b.kick_end));
+    greatest = std::max(greatest, kernels_.kick_nodes(node_, r.kicks.data(), b.kick_begin, b.kick_end));
+  return greatest;
+}
+
+double Piece::compute_and_move(const Block& block, StageClock& clock) {
+  compute(block, step_book());
+  clock.tick(StageId::axial_forces);
+  const double greatest = move(block, plan_.contacts());
   clock.tick(StageId::gather_and_move);
   return greatest;
 }
@@ -266,8 +280,47 @@ void Piece::sweep(int steps, StageClock& clock) {
     }
 }
 
-void Piece::evaluate_contacts(double time, double motion) {
+// From now on, nodes of `out` move in place of this piece's; those of a piece that is not whole in its own
+// copy.
+void Piece::lend(Glance& out) {
+  double* moved[6];
+  for (std::size_t f = 0; f < 6; ++f) {
+    const bool gain = f >= 3;
+    AlignedVector<double>& field = whole_ && gain ? out.gain[f - 3] : glance_fields_[f];
+    if (gain) field.assign(scale_.size(), 0.0);
+    else field.resize(scale_.size(), 0.0);  // its values mean nothing
+    moved[f] = field.data();
+  }
+  node_.x = moved[0], node_.y = moved[1], node_.z = moved[2];
+  node_.vx = moved[3], node_.vy = moved[4], node_.vz = moved[5];
+  axial_.booked = out.elastic.data();
+  for (kernel::Reaction*& reaction : reactions_) reaction = &unbooked_;
+}
+
+void Piece::glance(State& state, double time, double motion, Glance& out) {
+  take(state);
   contacts_.evaluate(view(), plan_, time, 0, motion);
+  lend(out);
+  const auto constraints = static_cast<Index>(constraints_.size());
+  hold_before(0, constraints);
+  for (const Block& block : reduction_.blocks) {
+    compute(block, kernel::Book::energy);
+    move(block, false);
+  }
+  kernels_.load_nodes(node_, contacts_.loads(), contacts_.load_count());
+  hold_after(0, constraints);
+  for (std::size_t f = 0; !whole_ && f < 3; ++f)
+    for (std::size_t i = 0; i < numbering_.global.size(); ++i)
+      if (numbering_.layer[i] == 0) out.gain[f][at(numbering_.global[i])] = glance_fields_[3 + f][i];
+}
+
+void Piece::append_loads(std::vector<kernel::Load>& loads) const {
+  for (Index i = 0; i < contacts_.load_count(); ++i) {
+    kernel::Load load = contacts_.loads()[i];
+    if (load.node >= numbering_.nodes() || !numbering_.own(load.node)) continue;
+    load.node = numbering_.global[at(load.node)];
+    loads.push_back(load);
+  }
 }
 
 }  // namespace cinch

@@ -3,6 +3,7 @@
 // which works on the state itself; else each piece has its own copy, which its own thread is the first to
 // touch.
 #pragma once
+#include "plan/glance.hpp"
 #include "plan/near_contacts.hpp"
 #include "plan/stage_clock.hpp"
 #include "store/force_reduction.hpp"
@@ -48,8 +49,11 @@ class Piece {
   double step(double time, double motion, StageClock& clock);
   /// `steps` <= levels() steps of a scene without contacts.
   void sweep(int steps, StageClock& clock);
-  /// Contact forces of this moment; books nothing.
-  void evaluate_contacts(double time, double motion);
+  /// What one step from this state would add to the speeds of its own nodes; moves and books nothing. With
+  /// several pieces `out` has its final size already.
+  void glance(State& state, double time, double motion, Glance& out);
+  /// Appends the contact forces on its own nodes as last evaluated, in the user's numbers.
+  void append_loads(std::vector<kernel::Load>& loads) const;
 
  private:
   void set_up(const Model& model, const std::vector<double>& node_share);
@@ -59,7 +63,11 @@ class Piece {
   void bind(State& state);
   NodeView view() const;
   void use_level(int level);
+  void compute(const Block& block, kernel::Book::Sum book);
+  double move(const Block& block, bool watch);
   double compute_and_move(const Block& block, StageClock& clock);
+  kernel::Book::Sum step_book() const;
+  void lend(Glance& out);
   void hold_before(Index begin, Index end);
   void hold_after(Index begin, Index end);
 
@@ -84,6 +92,7 @@ class Piece {
   std::vector<Index> reaction_number_;        ///< constraint: its number in the model; -1: not booked here
   std::vector<kernel::Reaction*> reactions_;  ///< constraint
   kernel::Reaction unbooked_{};
+  AlignedVector<double> glance_fields_[6];  ///< what a glance moves in place of the nodes
   kernel::AxialArguments axial_{};
   kernel::NodeArguments node_{};
   NearContacts contacts_;

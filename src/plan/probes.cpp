@@ -40,54 +40,54 @@ std::vector<std::string> suffixes(ProbeQuantity q) {
 // A ring or a node, whatever the probe is of.
 struct Subject {
   bool ring = false;
-  std::size_t index = 0;
+  Index index = 0;
 };
 
 Subject subject_of(const Assembly& assembly, const Probe& probe) {
-  if (probe.of.starts_with("ring.")) return {true, static_cast<std::size_t>(assembly.ring_of(probe.of))};
-  return {false, static_cast<std::size_t>(assembly.node_of(probe.of))};
+  if (probe.of.starts_with("ring.")) return {true, assembly.ring_of(probe.of)};
+  return {false, assembly.node_of(probe.of)};
 }
 
 // The node that moves with the subject (a ring on an element has none: probe_columns refuses its velocity).
-std::size_t node_of(const Assembly& assembly, const Subject& subject) {
-  return subject.ring ? static_cast<std::size_t>(assembly.rings[subject.index].node) : subject.index;
+Index node_of(const Assembly& assembly, const Subject& subject) {
+  return subject.ring ? assembly.rings[static_cast<std::size_t>(subject.index)].node : subject.index;
 }
 
 // The elements whose greatest tension is meant: those of a part ("thread.NAME", "net.NAME",
 // "mechanism.NAME"), or those that meet at a node.
-std::vector<std::size_t> elements_of(const Assembly& assembly, const Probe& probe) {
-  std::vector<std::size_t> found;
+std::vector<Index> elements_of(const Assembly& assembly, const Probe& probe) {
+  std::vector<Index> found;
   for (const Part& part : assembly.parts)
     if (probe.of == part.reference())
-      for (Index e = 0; e < part.elements; ++e)
-        found.push_back(static_cast<std::size_t>(part.first_element + e));
+      for (Index e = 0; e < part.elements; ++e) found.push_back(part.first_element + e);
   if (!found.empty()) return found;
   const Index node = assembly.node_of(probe.of);
   for (std::size_t e = 0; e < assembly.elements.size(); ++e)
-    if (assembly.elements[e].a == node || assembly.elements[e].b == node) found.push_back(e);
+    if (assembly.elements[e].a == node || assembly.elements[e].b == node)
+      found.push_back(static_cast<Index>(e));
   return found;
 }
 
 void append(std::vector<double>& row, const Vec3& v) { row.insert(row.end(), {v.x(), v.y(), v.z()}); }
 
-void append_value(std::vector<double>& row, const Probe& probe, const Assembly& assembly, const Frame& frame,
+void append_value(std::vector<double>& row, const Probe& probe, const Look& now, const Energies& energy,
                   const std::vector<Vec3>& nodes_at_start, const std::vector<Vec3>& rings_at_start) {
+  const Assembly& assembly = now.assembly();
   switch (probe.quantity) {
     case ProbeQuantity::mouth_area:
-      row.push_back(mouth_area(frame.ring_center));
+      row.push_back(mouth_area(now.ring_centers()));
       return;
     case ProbeQuantity::mouth_spread:
-      row.push_back(mouth_spread(frame.ring_center));
+      row.push_back(mouth_spread(now.ring_centers()));
       return;
     case ProbeQuantity::energy: {
-      const std::vector<double> terms = frame.energy.values();
+      const std::vector<double> terms = energy.values();
       row.insert(row.end(), terms.begin(), terms.end());
       return;
     }
     case ProbeQuantity::tension: {
       double greatest = 0;
-      for (const std::size_t e : elements_of(assembly, probe))
-        greatest = std::max(greatest, frame.tension[e]);
+      for (const Index e : elements_of(assembly, probe)) greatest = std::max(greatest, now.pull(e).tension);
       row.push_back(greatest);
       return;
     }
@@ -95,23 +95,23 @@ void append_value(std::vector<double>& row, const Probe& probe, const Assembly& 
       break;
   }
   const Subject subject = subject_of(assembly, probe);
-  const std::size_t i = subject.index;
+  const Index i = subject.index;
+  const auto place = [&] { return subject.ring ? now.ring_center(i) : now.position(i); };
   switch (probe.quantity) {
     case ProbeQuantity::position:
-      append(row, subject.ring ? frame.ring_center[i] : frame.position[i]);
+      append(row, place());
       break;
     case ProbeQuantity::displacement:
-      append(row, subject.ring ? Vec3(frame.ring_center[i] - rings_at_start[i])
-                               : Vec3(frame.position[i] - nodes_at_start[i]));
+      append(row, place() - (subject.ring ? rings_at_start : nodes_at_start)[static_cast<std::size_t>(i)]);
       break;
     case ProbeQuantity::velocity:
-      append(row, frame.velocity[node_of(assembly, subject)]);
+      append(row, now.velocity(node_of(assembly, subject)));
       break;
     case ProbeQuantity::speed:
-      row.push_back(frame.velocity[node_of(assembly, subject)].norm());
+      row.push_back(now.velocity(node_of(assembly, subject)).norm());
       break;
     default: {  // force
-      const Vec3 force = subject.ring ? frame.ring_force[i] : frame.contact_force[i];
+      const Vec3 force = subject.ring ? now.ring_force(i) : now.contact_force(i);
       append(row, force);
       row.push_back(force.norm());
     }
@@ -130,7 +130,7 @@ std::vector<ResultModel::ProbeColumn> probe_columns(const Scene& scene, const As
                q != ProbeQuantity::energy) {
       const Subject subject = subject_of(assembly, probe);
       const bool motion = q == ProbeQuantity::velocity || q == ProbeQuantity::speed;
-      if (subject.ring && motion && assembly.rings[subject.index].node < 0)
+      if (subject.ring && motion && node_of(assembly, subject) < 0)
         throw CaseError(probe.source.text + ": error: probe '" + probe.name +
                         "': a ring on an element has no velocity of its own");
     }
@@ -140,12 +140,12 @@ std::vector<ResultModel::ProbeColumn> probe_columns(const Scene& scene, const As
   return columns;
 }
 
-std::vector<double> probe_values(const Scene& scene, const Assembly& assembly, const Frame& frame,
+std::vector<double> probe_values(const Scene& scene, const Look& now, const Energies& energy,
                                  const std::vector<Vec3>& nodes_at_start,
                                  const std::vector<Vec3>& rings_at_start) {
   std::vector<double> row;
   for (const Probe& probe : scene.probes)
-    append_value(row, probe, assembly, frame, nodes_at_start, rings_at_start);
+    append_value(row, probe, now, energy, nodes_at_start, rings_at_start);
   return row;
 }
 

@@ -2,8 +2,7 @@
 #pragma once
 #include <vector>
 
-#include "base/result.hpp"
-#include "scene/assembly.hpp"
+#include "plan/look.hpp"
 
 namespace cinch {
 
@@ -12,8 +11,9 @@ namespace cinch {
 /// quantity.
 std::vector<ResultModel::ProbeColumn> probe_columns(const Scene& scene, const Assembly& assembly);
 
-/// Values of the columns; `nodes_at_start` and `rings_at_start` are positions at t = 0.
-std::vector<double> probe_values(const Scene& scene, const Assembly& assembly, const Frame& frame,
+/// Values of the columns; `energy` as the ledger has it, `nodes_at_start` and `rings_at_start` are positions
+/// at t = 0.
+std::vector<double> probe_values(const Scene& scene, const Look& now, const Energies& energy,
                                  const std::vector<Vec3>& nodes_at_start,
                                  const std::vector<Vec3>& rings_at_start);
 

@@ -115,38 +115,38 @@ void Simulation::start() {
     work = kinetic_energy(m, state_) - before;
     for (const Mechanism& mechanism : scene_.mechanisms) events_.push_back({0, "separation", mechanism.name});
   }
-  const Observation begin = observe(*stepper_, state_, false);
-  const double half = 0.5 * preparation_.dt;
-  for (std::size_t i = 0; i < at(m.nodes); ++i) {
-    state_.vx[i] -= half * begin.acceleration[i].x();
-    state_.vy[i] -= half * begin.acceleration[i].y();
-    state_.vz[i] -= half * begin.acceleration[i].z();
+  look_.take(*stepper_, state_, preparation_.assembly, false);
+  const Energies begin = look_.energy();
+  for (Index i = 0; i < m.nodes; ++i) {
+    const Vec3 half = 0.5 * look_.gain(i);
+    state_.vx[at(i)] -= half.x();
+    state_.vy[at(i)] -= half.y();
+    state_.vz[at(i)] -= half.z();
   }
   drop_negative_zeros(state_);
   remember();
   ledger_.open(begin, m, state_, work);
-  const Frame first = frame();
-  node_start_ = first.position;
-  ring_start_ = first.ring_center;
+  node_start_ = look().positions();
+  ring_start_ = look_.ring_centers();
   // rings along one straight edge are no mouth: their hull has next to no area
   const double spread = mouth_spread(ring_start_);
   has_mouth_ = mouth_area(ring_start_) > 0.01 * spread * spread;
-  note_events(first);
+  note_events(look_);
 }
 
 void Simulation::close() {
   const Model& before_model = model();
-  const Observation before = observe(*stepper_, state_);
+  const Energies before = look().energy();
   State after = lay_closing_threads(preparation_.phases[1].model, preparation_.assembly, state_);
   std::swap(state_, after);  // `after` now holds the state before
   enter_phase(1);
-  const Observation laid = observe(*stepper_, state_);
+  const Energies laid = look().energy();
   separate(preparation_.assembly, state_);
   const Momentum free = half_step_momentum(model(), state_);
   hold_supports(model(), state_);
   drop_negative_zeros(state_);
   const Momentum held = half_step_momentum(model(), state_);
-  const Observation separated = observe(*stepper_, state_);
+  const Energies separated = look().energy();
   ledger_.book_closing(before, after, laid, separated, state_, before_model, model());
   remember();
   ledger_.book_supports(
@@ -186,66 +186,53 @@ void Simulation::find_fault() {
   report_runaway(preparation_, model(), state_, scene_.time.speed_limit);
 }
 
-namespace {
-
-// Ring centres and normals from their hosts, in both phases.
-void place_rings(const Assembly& assembly, Frame& out) {
-  for (const AssemblyRing& ring : assembly.rings) {
-    if (ring.element < 0) {
-      out.ring_center.push_back(out.position[at(ring.node)]);
-      out.ring_normal.push_back(ring.normal);
-      continue;
-    }
-    const AssemblyElement& host = assembly.elements[at(ring.element)];
-    out.ring_center.push_back(0.5 * (out.position[at(host.a)] + out.position[at(host.b)]));
-    out.ring_normal.push_back((out.position[at(host.b)] - out.position[at(host.a)]).normalized());
-  }
+const Look& Simulation::look() {
+  look_.take(*stepper_, state_, preparation_.assembly);
+  return look_;
 }
 
-}  // namespace
-
-Frame Simulation::frame() {
+Frame Simulation::frame(const Look& now) {
   const Assembly& assembly = preparation_.assembly;
-  Observation now = observe(*stepper_, state_);
   Frame out;
-  out.time = time();
-  out.step = state_.step;
-  out.energy = ledger_.energies(now);
-  out.position = std::move(now.position);
-  out.velocity = std::move(now.velocity);
-  if (out.position.size() < assembly.nodes.size()) append_laid_nodes(assembly, out.position, out.velocity);
-  out.contact_force = std::move(now.contact_force);
-  out.contact_force.resize(assembly.nodes.size(), Vec3::Zero());
-  out.active.assign(now.tension.size(), 1);
-  out.active.resize(assembly.elements.size(), 0);
-  out.tension = std::move(now.tension);
-  out.strain = std::move(now.strain);
-  out.tension.resize(assembly.elements.size(), 0);
-  out.strain.resize(assembly.elements.size(), 0);
-  place_rings(assembly, out);
-  out.ring_force = std::move(now.ring_force);
-  out.ring_force.resize(assembly.rings.size(), Vec3::Zero());
+  out.time = now.time();
+  out.step = now.step();
+  out.energy = ledger_.energies(now.energy());
+  out.position = now.positions();
+  out.contact_force = now.contact_forces();
+  for (Index i = 0; i < static_cast<Index>(assembly.nodes.size()); ++i)
+    out.velocity.push_back(now.velocity(i));
+  for (Index e = 0; e < static_cast<Index>(assembly.elements.size()); ++e) {
+    const Look::Pull pull = now.pull(e);
+    out.tension.push_back(pull.tension);
+    out.strain.push_back(pull.strain);
+    out.active.push_back(now.present(e));
+  }
+  out.ring_center = now.ring_centers();
+  for (Index r = 0; r < static_cast<Index>(assembly.rings.size()); ++r) {
+    out.ring_normal.push_back(now.ring_normal(r));
+    out.ring_force.push_back(now.ring_force(r));
+  }
   return out;
 }
 
-std::vector<double> Simulation::probe_row(const Frame& now) const {
-  return probe_values(scene_, preparation_.assembly, now, node_start_, ring_start_);
+std::vector<double> Simulation::probe_row(const Look& now) {
+  return probe_values(scene_, now, ledger_.energies(now.energy()), node_start_, ring_start_);
 }
 
-void Simulation::note_events(const Frame& now) {
+void Simulation::note_events(const Look& now) {
   if (!has_mouth_ || preparation_.closing_step < 0) return;
-  const double area = mouth_area(now.ring_center);
+  const double area = mouth_area(now.ring_centers());
   greatest_mouth_ = std::max(greatest_mouth_, area);
-  if (!closed_phase() || now.step <= preparation_.closing_step) return;
+  if (!closed_phase() || now.step() <= preparation_.closing_step) return;
   if (!mouth_closed_ && area < 0.05 * greatest_mouth_) {  // model.md: mouth closed
     mouth_closed_ = true;
-    events_.push_back({now.time, "mouth_closed", "mouth"});
+    events_.push_back({now.time(), "mouth_closed", "mouth"});
   }
   for (std::size_t b = 0; mouth_closed_ && b < enclosed_.size(); ++b)
     for (const NetSurface& surface : surfaces_)
-      if (!enclosed_[b] && surface.encloses(now.position, preparation_.assembly.balls[b].center)) {
+      if (!enclosed_[b] && surface.encloses(now.positions(), preparation_.assembly.balls[b].center)) {
         enclosed_[b] = true;
-        events_.push_back({now.time, "target_enclosed", preparation_.assembly.balls[b].name});
+        events_.push_back({now.time(), "target_enclosed", preparation_.assembly.balls[b].name});
       }
 }
 

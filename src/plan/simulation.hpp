@@ -20,12 +20,15 @@ class Simulation {
   /// likely cause) and leaves the state of the step that went wrong.
   void advance_to(std::int64_t step);
 
+  /// How the scene stands now; good until it is advanced or looked at again.
+  const Look& look();
   /// Everything a frame holds, closing threads laid on their carriers before the closing time.
-  Frame frame();
-  /// One value for each column of `probe_columns`, from a frame taken now.
-  std::vector<double> probe_row(const Frame& now) const;
+  Frame frame(const Look& now);
+  Frame frame() { return frame(look()); }
+  /// One value for each column of `probe_columns`.
+  std::vector<double> probe_row(const Look& now);
   /// Looks at the mouth and at targets and notes events; call as often as events should be resolved.
-  void note_events(const Frame& now);
+  void note_events(const Look& now);
 
   const std::vector<ResultModel::ProbeColumn>& probe_columns() const { return probe_columns_; }
   ResultModel result_model() const;
@@ -61,6 +64,7 @@ class Simulation {
   State state_;
   State sound_;  ///< the last state that was looked at and kept; faults are searched for from there
   std::unique_ptr<Stepper> stepper_;
+  Look look_;
   Ledger ledger_;
   std::vector<ResultModel::ProbeColumn> probe_columns_;
   std::vector<Vec3> ring_start_, node_start_;  ///< where rings and nodes were at t = 0, for displacements

@@ -53,16 +53,18 @@ void Stepper::make_pieces(const std::vector<std::vector<Index>>& shares) {
 void Stepper::share_out(State& state) {
   if (plan_.contacts() && !contacts_valid_) renew_contacts(state);
   make_pieces(partition(*model_, state, contacts_, threads_));
-  hand_out_contacts(state);
+  if (plan_.contacts()) hand_out_contacts(state);
+  else exchange_.set_up(pieces_, owner_, false);
 }
 
 void Stepper::hand_out_contacts(State& state) {
-  if (plan_.contacts()) {
+  if (threads_ == 1)
+    return pieces_[0]->contacts().renew(all_contacts(*model_, contacts_, state), contacts_.margin(),
+                                        node_share_.data());
 #pragma omp parallel for num_threads(threads_) schedule(static, 1)
-    for (int p = 0; p < threads_; ++p)
-      hand_out(*model_, contacts_, state, owner_, p, node_share_, *pieces_[at(p)]);
-  }
-  exchange_.set_up(pieces_, owner_, plan_.contacts());
+  for (int p = 0; p < threads_; ++p)
+    hand_out(*model_, contacts_, state, owner_, p, node_share_, *pieces_[at(p)]);
+  exchange_.set_up(pieces_, owner_, true);
 }
 
 void Stepper::renew_contacts(State& state) {
@@ -71,9 +73,7 @@ void Stepper::renew_contacts(State& state) {
   release_lonely_rings(contacts_, state);
   motion_ = 0;
   contacts_valid_ = true;
-  NearContacts& all = threads_ == 1 ? pieces_[0]->contacts() : looked_at_;
-  all.renew(cinch::all_contacts(*model_, contacts_, state), contacts_.margin(), node_share_.data());
-  if (threads_ > 1 && !pieces_.empty()) hand_out_contacts(state);
+  if (!pieces_.empty()) hand_out_contacts(state);
   seconds_[static_cast<std::size_t>(StageId::broadphase)] += clock_seconds() - begin;
 }
 
@@ -144,17 +144,16 @@ void Stepper::advance(State& state, std::int64_t steps) {
   }
 }
 
-void Stepper::evaluate(State& state) {
-  if (!plan_.contacts()) return;
-  if (!contacts_valid_) renew_contacts(state);
+void Stepper::glance(State& state, Glance& out) {
+  if (pieces_.empty()) share_out(state);
+  if (plan_.contacts() && !contacts_valid_) renew_contacts(state);
+  for (auto& gain : out.gain) gain.resize(at(model_->nodes));
+  out.elastic.assign(at(model_->ledger_rows() * kernel::lanes), 0.0);
   const double time = static_cast<double>(state.step) * plan_.dt;
-  if (threads_ == 1) {
-    pieces_[0]->take(state);
-    return pieces_[0]->evaluate_contacts(time, motion_);
-  }
-  looked_at_.evaluate({state.x.data(), state.y.data(), state.z.data(), state.vx.data(), state.vy.data(),
-                       state.vz.data(), node_share_.data()},
-                      plan_, time, 0, motion_);
+#pragma omp parallel for num_threads(threads_) schedule(static, 1) if (threads_ > 1)
+  for (int p = 0; p < threads_; ++p) pieces_[at(p)]->glance(state, time, motion_, out);
+  out.loads.clear();
+  for (const auto& piece : pieces_) piece->append_loads(out.loads);
 }
 
 }  // namespace cinch

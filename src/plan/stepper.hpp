@@ -31,11 +31,9 @@ class Stepper {
   /// To be called when the state was set back to that of an earlier step.
   void start_over() { contacts_valid_ = false, healthy_ = true; }
 
-  /// Computes the contact forces of the state as it stands and books nothing.
-  void evaluate(State& state);
-  /// Contact forces on nodes, as last evaluated, in the user's numbers.
-  const kernel::Load* loads() const { return all_contacts().loads(); }
-  Index load_count() const { return all_contacts().load_count(); }
+  /// Computes the forces of the state as it stands; moves and books nothing, but rings and balls tell the
+  /// force that they feel now.
+  void glance(State& state, Glance& out);
 
   /// False once a node's speed was above the limit.
   bool healthy() const { return healthy_; }
@@ -55,7 +53,6 @@ class Stepper {
     Verdict verdict;
   };
 
-  const NearContacts& all_contacts() const { return threads_ == 1 ? pieces_[0]->contacts() : looked_at_; }
   void share_out(State& state);
   void make_pieces(const std::vector<std::vector<Index>>& shares);
   int sweep_depth(const std::vector<std::vector<Index>>& shares) const;
@@ -74,7 +71,6 @@ class Stepper {
   std::vector<std::unique_ptr<Piece>> pieces_;  ///< thread; of several threads made at the first advance
   std::vector<int> owner_;                      ///< node: its piece (several threads)
   Exchange exchange_;                           ///< (several threads)
-  NearContacts looked_at_;                      ///< all contacts, for looks at the state (several threads)
   double motion_ = 0;
   bool contacts_valid_ = false, healthy_ = true;
   std::int64_t windows_ = 0;

@@ -73,7 +73,7 @@ Summary Simulation::summary() {
   s.stable_step = preparation_.stable_step;
   s.stable_step_limited_by = preparation_.limited_by;
   s.state_hash = state_hash(state_);
-  s.energy = ledger_.energies(observe(*stepper_, state_));
+  s.energy = ledger_.energies(look().energy());
   s.energy_initial = ledger_.initial();
   if (!scene_.output.ledger) s.energy.residual = std::numeric_limits<double>::quiet_NaN();  // books not kept
   s.relative_residual = ledger_.scale() > 0 ? std::abs(s.energy.residual) / ledger_.scale() : 0;

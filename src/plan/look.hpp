@@ -1,0 +1,64 @@
+// A look at a scene at one instant, without touching its motion: velocities at the full step, tensions,
+// contact forces, energies.
+//
+// Positions and velocities are those of the same instant, v(n) = v(n-1/2) + 1/2 (v(n+1/2) - v(n-1/2)): a
+// glance at what the next step would do gives the difference.
+#pragma once
+#include "base/result.hpp"
+#include "plan/stepper.hpp"
+
+namespace cinch {
+
+class Look {
+ public:
+  /// A pull on one element.
+  struct Pull {
+    double tension;  ///< N
+    double strain;   ///< negative when slack
+  };
+
+  /// Looks at `state`, which must not change while the look is used; arrays are kept from look to look.
+  /// `half_step` tells whether the velocities lie half a step back (running) or at the state's own time
+  /// (start).
+  void take(Stepper& stepper, State& state, const Assembly& assembly, bool half_step = true);
+
+  std::int64_t step() const { return state_->step; }
+  double time() const { return time_; }  ///< s
+  const Assembly& assembly() const { return *assembly_; }
+
+  /// In the user's numbering; threads that are not there before closing lie on what carries them.
+  Vec3 position(Index node) const;       ///< m
+  Vec3 velocity(Index node) const;       ///< m/s
+  Vec3 gain(Index node) const;           ///< what the next step adds to the velocity, m/s
+  Vec3 contact_force(Index node) const;  ///< N
+  Pull pull(Index element) const;        ///< zero for elements that are not there yet
+  bool present(Index element) const { return element < model_->elements; }
+  Vec3 ring_center(Index ring) const;  ///< m
+  Vec3 ring_normal(Index ring) const;
+  Vec3 ring_force(Index ring) const;  ///< N
+
+  std::vector<Vec3> positions() const;
+  std::vector<Vec3> ring_centers() const;
+  std::vector<Vec3> contact_forces() const;
+
+  /// Stored and dissipated; what the simulation books is zero here.
+  const Energies& energy() const { return energy_; }
+
+ private:
+  Vec3 speed(Index node) const;
+  void sum_energies(double dt);
+
+  const Model* model_ = nullptr;
+  const State* state_ = nullptr;
+  const Assembly* assembly_ = nullptr;
+  double time_ = 0, share_ = 0;
+  Glance glance_;
+  Energies energy_;
+};
+
+/// Sum of each term of the ledger that the kernels keep, J.
+double dissipated_by_dampers(const State& state, double dt);
+double dissipated_by_contacts(const State& state);
+double couple_work(const State& state);
+
+}  // namespace cinch
