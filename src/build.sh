@@ -5,6 +5,9 @@ set -euo pipefail
 cinch_root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 cinch_packages=(g++ cmake ninja-build libeigen3-dev libhdf5-dev libtomlplusplus-dev libcli11-dev nlohmann-json3-dev
   libjs-chart.js libjs-three libgtest-dev libbenchmark-dev)
+cinch_bench_packages=(python3)  # bench/run: history, page and exports
+cinch_test_packages=(python3)   # tests/run, besides a browser that looks whether the page draws its figures
+cinch_browser=chromium
 
 # Installs those of the named packages that are not there yet.
 cinch_install() {

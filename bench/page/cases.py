@@ -1,0 +1,97 @@
+"""Figures of whole cases: run time beside the paper's, and which stage of a step takes it."""
+from __future__ import annotations
+
+import paper_times
+from page.figure import (GREY, Chart, Figure, Row, Series, bars, by_scene, column, counter, first_cells, label,
+                         measure, of_suite, rounded)
+from stored_run import Result, Run
+
+
+def minutes(result: Result) -> float | None:
+    return counter(result, "minutes_per_simulated_second")
+
+
+def paper_minutes(scene: str, result: Result) -> float | None:
+    """The paper's figure for the case of this scene, and the same number of elements where it gives several."""
+    return paper_times.minutes_per_simulated_second(scene.split("/")[1], result.counters.get("elements"))
+
+
+def scenes(run: Run) -> dict[str, dict[int, Result]]:
+    """Cases with a run time, by scene and threads; whole runs of a case before its phases."""
+    found = by_scene(pair for pair in of_suite(run, "case") if minutes(pair[1]))
+    return dict(sorted(found.items(), key=lambda item: (item[0].split("/")[1], not item[0].endswith("/whole"))))
+
+
+def scene_label(scene: str, result: Result) -> str:
+    """Cases that come with several numbers of elements are told apart by them."""
+    elements = result.counters.get("elements")
+    size = f", {elements:.0f} elements" if elements and scene.split("/")[1] == "ring_pull" else ""
+    return label(scene) + size
+
+
+def run_time(run: Run) -> Figure:
+    """Minutes a simulated second: with one thread, with the best number of threads, and the paper's."""
+    rows: list[Row] = []
+    for scene, results in scenes(run).items():
+        times = {threads: minutes(result) or 0 for threads, result in results.items()}
+        best = min(times, key=times.__getitem__)
+        theirs = paper_minutes(scene, results[best])
+        rows.append((scene_label(scene, results[best]), times.get(1), times[best], best, theirs,
+                     theirs / times[best] if theirs else None))
+    more_threads = [value if row[3] != 1 else None for row, value in zip(rows, column(rows, 2))]
+    series = [Series("Cinch, 1 thread", 0, column(rows, 1)), Series("Cinch, best number of threads", 2, more_threads),
+              Series(f"paper, {paper_times.MACHINE}", GREY, column(rows, 4))]
+    return Figure(
+        "Run time of each case",
+        "Shorter is better, on a logarithmic scale; the paper gives one figure for the whole of a case, which stands "
+        "beside each of its phases.",
+        measure("^case/"),
+        ["case", "1 thread, min/s", "fastest, min/s", "its threads", "paper, min/s", "times faster than the paper"],
+        rows, bars(first_cells(rows), series, "run time per simulated second, minutes", log=True))
+
+
+def times_faster(run: Run) -> list[tuple[str, float]]:
+    """How many times faster than the paper: whole cases, or the phases of those measured in phases only."""
+    found: dict[str, list[tuple[str, str, float]]] = {}
+    for scene, results in scenes(run).items():
+        fastest = min(minutes(result) or 0 for result in results.values())
+        first = next(iter(results.values()))
+        theirs = paper_minutes(scene, first)
+        if theirs:
+            found.setdefault(scene.split("/")[1], []).append((scene, scene_label(scene, first), theirs / fastest))
+    whole = {case: [row for row in rows if row[0].endswith("/whole")] for case, rows in found.items()}
+    return [(row[1], row[2]) for case, rows in found.items() for row in whole[case] or rows]
+
+
+STAGES = ["contacts", "axial_forces", "gather_and_move", "threads_meeting", "broadphase", "observe"]
+
+
+def stages(run: Run) -> Figure:
+    """Shares of a step with one thread and with most threads: the meeting of threads shows only there."""
+    found = [(scene, threads, results[threads]) for scene, results in by_scene(of_suite(run, "case")).items()
+             for threads in sorted({min(results), max(results)})
+             if any(key.startswith("share_") for key in results[threads].counters)]
+    stage_names = _stage_names([result for _, _, result in found])
+    categories = [f"{label(scene)}, {threads} thread{'s' * (threads > 1)}" for scene, threads, _ in found]
+    shares = {stage: [rounded(counter(result, f"share_{stage}", 100)) for _, _, result in found]
+              for stage in stage_names}
+    shares["rest"] = [max(0.0, round(100 - sum(share or 0 for share in step), 3)) for step in zip(*shares.values())]
+    rows = [[category, *(shares[stage][i] for stage in shares)] for i, category in enumerate(categories)]
+    return Figure(
+        "Where the time of a step goes",
+        "Each bar is one step; long stages are worth working on, and few percent for threads meeting is good.",
+        measure("^case/"),
+        ["case", *(f"{stage.replace('_', ' ')}, %" for stage in shares)], rows, _stacked(categories, shares))
+
+
+def _stage_names(results: list[Result]) -> list[str]:
+    """The known stages in the order of a step, then any others the benchmarks may name."""
+    found = {key.removeprefix("share_") for result in results for key in result.counters if key.startswith("share_")}
+    return [stage for stage in STAGES if stage in found] + sorted(found - set(STAGES))
+
+
+def _stacked(categories: list[str], shares: dict[str, list[float | None]]) -> Chart:
+    palette = [colour for colour in range(8) if colour != GREY]
+    series = [Series(stage.replace("_", " "), GREY if stage == "rest" else palette[i % len(palette)], values)
+              for i, (stage, values) in enumerate(shares.items()) if any(value for value in values)]
+    return bars(categories, series, "share of a step, %", stacked=True, most=100)

@@ -1,0 +1,100 @@
+"""The history in the page: for each machine and benchmark one point a commit. Machines are never joined."""
+from __future__ import annotations
+
+import statistics
+from dataclasses import dataclass
+from datetime import datetime
+from typing import Any
+
+from comparison import TOLERANCE, Spread, judge
+from history import Record
+from page.figure import Row
+from text import duration
+
+
+@dataclass(frozen=True)
+class Point:
+    """All runs of one benchmark at one commit on one machine."""
+
+    when: float  # ms since 1970, as JavaScript counts
+    commit: str
+    spread: Spread
+    repetitions: int
+    made_with: str
+
+
+def points(records: list[Record]) -> dict[str, dict[str, list[Point]]]:
+    """Points by machine, then by benchmark, in the order of time."""
+    groups: dict[tuple[str, str], dict[tuple[str, str], list[Record]]] = {}
+    for record in records:
+        commits = groups.setdefault((record["machine_id"], record["benchmark"]), {})
+        # changes that are no commit yet are a point of their own for each run, at the time of the run
+        own = record["run"] if record.get("dirty") else ""
+        commits.setdefault((record["commit"], own), []).append(record)
+    found: dict[str, dict[str, list[Point]]] = {}
+    for (machine, benchmark), commits in groups.items():
+        row = sorted((_point(same) for same in commits.values()), key=lambda point: point.when)
+        found.setdefault(machine, {})[benchmark] = row
+    return found
+
+
+def _point(records: list[Record]) -> Point:
+    times = [record["real_time_s"] for record in records]
+    last = records[-1]
+    dirty = last.get("dirty")
+    commit = last["commit"] + (" with changes" if dirty else "")
+    spread = Spread(statistics.median(time["median"] for time in times), min(time["min"] for time in times),
+                    max(time["max"] for time in times))
+    made_with = ", ".join(str(last.get(key, "")) for key in ("isa", "compiler", "mode"))
+    when = _milliseconds(last["date"] if dirty else last["commit_date"])
+    return Point(when, commit, spread, sum(time["n"] for time in times), made_with)
+
+
+def _milliseconds(date: str) -> float:
+    try:
+        return 1000 * datetime.fromisoformat(date.replace("Z", "+00:00")).timestamp()
+    except ValueError:
+        return 0.0
+
+
+def chart_data(machine: dict[str, list[Point]]) -> dict[str, Any]:
+    """What dashboard.js draws for one machine: when, median, least, greatest in seconds, n, commit, made with."""
+    return {benchmark: [[point.when, *(float(f"{value:.6g}") for value in
+                                       (point.spread.median, point.spread.least, point.spread.greatest)),
+                         point.repetitions, point.commit, point.made_with] for point in row]
+            for benchmark, row in machine.items()}
+
+
+@dataclass(frozen=True)
+class Change:
+    """The latest point of a benchmark against the one before."""
+
+    benchmark: str
+    before: Point
+    after: Point
+    verdict: str
+
+
+def latest_changes(machine: dict[str, list[Point]]) -> list[Change]:
+    """What the machine's latest commit changed, largest change first; benchmarks it did not run are left out, and so
+    are single measurements, whose ranges are unknown."""
+    latest = max((row[-1].when for row in machine.values()), default=0.0)
+    changes = [Change(benchmark, row[-2], row[-1], judge(row[-2].spread, row[-1].spread, TOLERANCE))
+               for benchmark, row in machine.items()
+               if len(row) > 1 and row[-1].when == latest and min(point.repetitions for point in row[-2:]) > 1]
+    return sorted(changes, key=lambda change: -abs(change.after.spread.median / change.before.spread.median - 1))
+
+
+def change_rows(changes: list[Change]) -> list[Row]:
+    """Rows of the table of changes; what stayed the same is left out."""
+    return [[change.benchmark, change.before.commit, duration(change.before.spread.median), change.after.commit,
+             duration(change.after.spread.median),
+             f"{100 * (change.after.spread.median / change.before.spread.median - 1):+.1f} %", change.verdict]
+            for change in changes if change.verdict != "same"]
+
+
+def first_choice(benchmarks: list[str]) -> str:
+    """The benchmark shown at first: the paper's capture, if it is there."""
+    wanted = ["case/capture/whole/threads:1", "case/capture/closing/threads:1"]
+    cases = [name for name in benchmarks if name.startswith("case/")]
+    return next((name for name in [*wanted, *cases, *benchmarks] if name in benchmarks), "")

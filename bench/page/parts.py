@@ -1,0 +1,104 @@
+"""Figures of the parts of a step and of what is around it: element update, absent features, kernels, output."""
+from __future__ import annotations
+
+from page.figure import GREY, Figure, Row, Series, bars, column, counter, first_cells, measure, of_suite, per_update_ns
+from stored_run import Result, Run
+
+Instructions = dict[str, dict[str, float]]
+
+
+def element(run: Run) -> Figure:
+    """The solver's element update beside two bare loops that do nothing else."""
+    kinds = {"bare": ("yardstick", GREY), "chain": ("Cinch", 0), "chain_with_ledger": ("Cinch, with energy ledger", 1)}
+    times: dict[str, dict[str, Result]] = {}
+    for name, result in of_suite(run, "element"):
+        if len(name.parts) == 2 and per_update_ns(result):
+            times.setdefault(name.parts[1], {})[name.parts[0]] = result
+    sizes = sorted(times, key=lambda size: (len(size), size))
+    rows: list[Row] = [(f"{size} elements", *(_time(times[size], kind) for kind in kinds),
+                        *(_of_yardstick(times[size], kind) for kind in ("chain", "chain_with_ledger")))
+                       for size in sizes]
+    series = [Series(words, colour, column(rows, i)) for i, (words, colour) in enumerate(kinds.values(), 1)]
+    return Figure(
+        "Element update beside its yardstick",
+        "Shorter is better; the yardstick is the same arithmetic in bare loops, so its length is what can be had.",
+        measure("^element/"),
+        ["chain", "yardstick, ns", "Cinch, ns", "with ledger, ns", "Cinch's speed, % of yardstick",
+         "with ledger, % of yardstick"],
+        rows, bars(first_cells(rows), series, "time per element and step, ns"))
+
+
+def _time(kinds: dict[str, Result], kind: str) -> float | None:
+    return per_update_ns(kinds[kind]) if kind in kinds else None
+
+
+def _of_yardstick(kinds: dict[str, Result], kind: str) -> float | None:
+    """Share of the yardstick's speed in per cent, from the counter or from the two speeds."""
+    if kind not in kinds:
+        return None
+    counted = counter(kinds[kind], "fraction_of_yardstick", 100)
+    if counted is not None or "bare" not in kinds:
+        return counted
+    return 100 * (per_update_ns(kinds["bare"]) or 0) / (per_update_ns(kinds[kind]) or 1)
+
+
+def absent(run: Run, instructions: Instructions, counted_on: str) -> Figure:
+    """What a feature costs a scene that does not use it: time from this run, instructions from callgrind."""
+    speeds: dict[str, dict[str, float]] = {}
+    for name, result in of_suite(run, "absent"):
+        updates = result.counters.get("element_updates_per_second")
+        if len(name.parts) == 2 and updates:
+            speeds.setdefault(name.parts[0], {})[name.parts[1]] = updates
+    features = dict.fromkeys([*speeds, *instructions])
+    costs = [(feature.replace("_", " "), _extra_time(speeds.get(feature, {})),
+              _extra_work(instructions.get(feature, {}))) for feature in features]
+    rows: list[Row] = [row for row in costs if row[1] is not None or row[2] is not None]
+    series = [Series("time", 0, column(rows, 1)), Series("instructions", 1, column(rows, 2))]
+    note = f" Instructions were counted on {counted_on}." if counted_on else ""
+    return Figure(
+        "What absent features cost",
+        "Extra time and instructions of a step that carries a feature without using it, against one that lacks it; "
+        "0 % is good, and few percent of time either way are noise." + note,
+        measure("^absent/"), ["feature", "extra time, %", "extra instructions, %"], rows,
+        bars(first_cells(rows), series, "extra cost of a step, %"))
+
+
+def _extra_time(speeds: dict[str, float]) -> float | None:
+    if not {"with", "without"} <= speeds.keys():
+        return None
+    return 100 * (speeds["without"] / speeds["with"] - 1)
+
+
+def _extra_work(counts: dict[str, float]) -> float | None:
+    if not counts.get("stripped") or "counted" not in counts:
+        return None
+    return 100 * (counts["counted"] / counts["stripped"] - 1)
+
+
+def kernels(run: Run) -> Figure:
+    """Each kernel on its own, on arrays of the size in its name."""
+    rows: list[Row] = []
+    for name, result in of_suite(run, "kernel"):
+        items = result.counters.get("element_updates_per_second") or result.counters.get("items_per_second")
+        if items:
+            rows.append([", ".join(name.parts).replace("_", " "), 1e9 / items,
+                         counter(result, "bytes_per_second", 1e-9)])
+    return Figure(
+        "Kernels",
+        "Time that one kernel takes for one item (element, node or near pair); shorter is better.",
+        measure("^kernel/"), ["kernel, items", "ns per item", "GB/s"], rows,
+        bars(first_cells(rows), [Series("kernel", 0, column(rows, 1))], "time per item, ns"))
+
+
+def around(run: Run) -> Figure:
+    """What is not stepping: start-up of scenes and output."""
+    rows: list[Row] = []
+    for suite, words in (("startup", "start-up"), ("output", "output")):
+        for name, result in of_suite(run, suite):
+            rows.append([f"{words}: {', '.join(name.parts)}", 1e3 * result.median,
+                         counter(result, "bytes_per_second", 1e-6)])
+    return Figure(
+        "Start-up and output",
+        "Time before the first step of a scene, and for each thing written; shorter is better.",
+        measure("^(startup|output)/"), ["what", "ms", "MB/s"], rows,
+        bars(first_cells(rows), [Series("time", 3, column(rows, 1))], "time, ms", log=True))

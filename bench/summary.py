@@ -1,0 +1,47 @@
+#!/usr/bin/env python3
+"""Prints a stored run in short: run time of each case beside the paper's.
+
+    bench/summary.py RUN
+"""
+from __future__ import annotations
+
+from pathlib import Path
+
+from command_line import Parser, run_main
+from page.cases import run_time
+from page.figure import Cell
+from paper_times import MACHINE
+from stored_run import Run, read_run
+from text import number, table
+
+
+def words(cell: Cell) -> str:
+    """A number for people, a dash for none."""
+    return "-" if cell is None else cell if isinstance(cell, str) else number(cell)
+
+
+def summary(run: Run) -> str:
+    """Cases with one thread and with the best number of threads; else how many other benchmarks the run holds."""
+    rows = []
+    for case, single, fastest, threads, paper, ratio in run_time(run).rows:
+        rows.append([str(case), words(single), words(fastest), str(threads), words(paper),
+                     f"{words(ratio)} times faster" if ratio else ""])
+    if not rows:
+        return f"{len(run.results)} benchmarks, none of them a case: the page and the exports have their figures"
+    headers = ["minutes per simulated second", "1 thread", "fastest", "threads", "paper", ""]
+    return table(headers, rows) + f"\nthe paper's: {MACHINE}"
+
+
+def main() -> int:
+    parser = Parser(prog="bench/summary.py", description="Prints a stored run in short.")
+    parser.add_argument("run", type=Path, metavar="RUN", help="stored run: Google Benchmark's JSON")
+    run = read_run(parser.parse_args().run)
+    print(summary(run))
+    for result in run.results.values():
+        if result.error:
+            print(f"gave up: {result.name}: {result.error}")
+    return 0
+
+
+if __name__ == "__main__":
+    run_main(main)

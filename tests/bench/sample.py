@@ -1,0 +1,156 @@
+"""Runs as Google Benchmark writes them, made up for the tests: two machines, three commits, 1 to 16 threads.
+
+Every benchmark of the dashboard is there. Times follow simple laws (Amdahl's, caches that net after net outgrows), so
+that the pages made of them look like real ones.
+"""
+from __future__ import annotations
+
+import json
+import random
+import sys
+from pathlib import Path
+from typing import Any, Iterator
+
+ROOT = Path(__file__).resolve().parents[2]
+BENCH = ROOT / "bench"
+sys.path.insert(0, str(BENCH))
+
+THREADS = (1, 2, 4, 8, 16)
+MACHINES = {"lab": "Example CPU 8-Core", "cluster": "Example CPU 64-Core"}
+COMMITS = {"aaaaaaaaaaaa": "2026-01-10T12:00:00+01:00", "bbbbbbbbbbbb": "2026-02-20T12:00:00+01:00",
+           "cccccccccccc": "2026-04-01T12:00:00+02:00"}
+
+Entry = dict[str, Any]
+
+
+def entries(name: str, seconds: float, counters: dict[str, float], repetitions: int, noise: random.Random,
+            appended: str = "/real_time") -> Iterator[Entry]:
+    """The single measurements of one benchmark, then two of the aggregates that Google Benchmark adds."""
+    base = {"run_name": name + appended, "repetitions": repetitions, "threads": 1, "time_unit": "ms"}
+    times = []
+    for index in range(repetitions):
+        times.append(1e3 * seconds * (1 + 0.02 * noise.random()))
+        yield {**base, "name": name + appended, "run_type": "iteration", "repetition_index": index, "iterations": 10,
+               "real_time": times[-1], "cpu_time": times[-1], **counters}
+    if repetitions > 1:
+        yield {**base, "name": name + appended + "_median", "run_type": "aggregate", "aggregate_name": "median",
+               "aggregate_unit": "time", "iterations": repetitions, "real_time": times[0], "cpu_time": times[0]}
+        yield {**base, "name": name + appended + "_cv", "run_type": "aggregate", "aggregate_name": "cv",
+               "aggregate_unit": "percentage", "iterations": repetitions, "real_time": 0.01, "cpu_time": 0.01}
+
+
+def speed_up(threads: int, serial: float) -> float:
+    """Amdahl's law."""
+    return 1 / (serial + (1 - serial) / threads)
+
+
+Benchmark = tuple[str, float, dict[str, float]]
+
+CASES = {"ring_pull/whole": (200, 10e-3, 0.9), "edge_closure/whole": (2800, 0.15, 0.4),
+         "capture/whole": (2300, 0.2, 0.3), "capture/closing": (2300, 0.25, 0.2),
+         "large_capture/closing/long": (72000, 12.0, 0.05)}
+
+
+def of_cases() -> Iterator[Benchmark]:
+    for case, (elements, minutes, serial) in CASES.items():
+        for threads in THREADS:
+            gain = speed_up(threads, serial)
+            meeting = 0.0 if threads == 1 else min(0.6, serial)
+            shares = {"contacts": 0.3, "axial_forces": 0.3, "gather_and_move": 0.2, "broadphase": 0.1, "observe": 0.05}
+            yield f"case/{case}/threads:{threads}", minutes / gain, {
+                "minutes_per_simulated_second": minutes / gain, "elements": elements, "nodes": elements * 0.9,
+                "element_updates_per_second": gain * 3e8, "omp_threads": threads, "handover_ns": 180.0,
+                "share_threads_meeting": meeting,
+                **{f"share_{stage}": share * (1 - meeting) for stage, share in shares.items()}}
+
+
+def of_growth() -> Iterator[Benchmark]:
+    for nodes in (2_000, 10_000, 50_000, 200_000, 1_000_000):
+        for threads in THREADS:
+            cached = nodes < 30_000
+            gain = speed_up(threads, 2e3 / nodes) if cached else min(speed_up(threads, 0.02), 4 + nodes / 5e5)
+            updates = gain * (6e8 if cached else 3e8)
+            yield f"growth/{nodes}/threads:{threads}", 0.05 / gain, {
+                "nodes": nodes, "elements": 1.05 * nodes, "element_updates_per_second": updates,
+                "bytes_per_second": 100 * updates,
+                "fraction_of_triad": 1.6 + 0.1 * threads if cached else 0.8 + 0.01 * threads,
+                "omp_threads": threads, "bytes_per_item": 290 + 2e5 / nodes + 10 * threads}
+
+
+def of_parts() -> Iterator[Benchmark]:
+    for threads in THREADS:
+        yield f"machine/triad/threads:{threads}", 0.02, {"bytes_per_second": 2e10 * min(threads, 4)}
+    yield "machine/handover", 2e-4, {"handover_ns": 180.0}
+    for elements in (200, 2000):
+        for kind, share in (("bare", 1.0), ("chain", 0.93), ("chain_with_ledger", 0.7)):
+            fraction = {} if kind == "bare" else {"fraction_of_yardstick": share}
+            yield f"element/{kind}/{elements}", 1e-3, {"element_updates_per_second": 1e9 * share, **fraction}
+    for kernel, items in (("axial_force", 8e8), ("ring_distance", 3e8), ("node_gather", 1e9)):
+        yield f"kernel/{kernel}/4096", 1e-3, {"items_per_second": items, "bytes_per_second": 60 * items}
+    for feature, cost in (("rings", 1.001), ("balls", 1.004), ("ledger", 0.998), ("probes", 1.02)):
+        yield f"absent/{feature}/with", 1e-3, {"element_updates_per_second": 9e8 / cost}
+        yield f"absent/{feature}/without", 1e-3, {"element_updates_per_second": 9e8}
+    for scene, seconds in (("ring_pull", 2e-3), ("capture", 0.06), ("large_capture", 1.4)):
+        yield f"startup/{scene}", seconds, {}
+    for what in ("frame", "report"):
+        yield f"output/{what}", 0.03, {"bytes_per_second": 4e8}
+
+
+def google_json(machine: str = "lab", commit: str = "aaaaaaaaaaaa", *, slower: dict[str, float] | None = None,
+                repetitions: int = 5, seed: int = 1, only: str = "", **context: str) -> dict[str, Any]:
+    """A whole run. `slower` multiplies times by the benchmark's name, `only` keeps names that begin so."""
+    noise, factors = random.Random(seed), slower or {}
+    benchmarks = [entry for group in (of_cases(), of_growth(), of_parts()) for name, seconds, counters in group
+                  if name.startswith(only)
+                  for entry in entries(name, seconds * factors.get(name, 1), counters, repetitions, noise)]
+    about = {"date": COMMITS.get(commit, "2026-05-01T12:00:00+00:00"), "host_name": "h", "num_cpus": 16,
+             "machine": machine, "cpu": MACHINES.get(machine, "CPU"), "cores": "16", "isa": "v3",
+             "compiler": "GNU 12.2.0", "build_type": "Release", "commit": commit, "dirty": "no", "mode": "full",
+             "commit_date": COMMITS.get(commit, "2026-05-01T12:00:00+00:00")}
+    return {"context": about | context, "benchmarks": benchmarks}
+
+
+def gave_up(name: str, why: str) -> Entry:
+    """What a benchmark leaves behind that calls SkipWithError."""
+    return {"name": name, "run_type": "iteration", "error_occurred": True, "error_message": why, "real_time": 0.0}
+
+
+def store(folder: Path, name: str, data: dict[str, Any]) -> Path:
+    """Writes a run as bench/run would."""
+    path = folder / "runs" / f"{name}.json"
+    path.parent.mkdir(parents=True, exist_ok=True)
+    path.write_text(json.dumps(data), encoding="utf-8")
+    return path
+
+
+def store_history(folder: Path) -> list[Path]:
+    """Three commits on each of two machines, the second slower for one benchmark; the last is lab's latest."""
+    runs = []
+    for machine in reversed(MACHINES):
+        for seed, commit in enumerate(COMMITS):
+            slower = {"case/capture/whole/threads:1": 1 - 0.2 * seed} if machine == "lab" else {
+                "case/capture/whole/threads:1": 0.8 + 0.03 * seed}
+            runs.append(store(folder, f"{machine}-{commit}", google_json(machine, commit, slower=slower, seed=seed)))
+    return runs
+
+
+INSTRUCTIONS: dict[str, dict[str, float]] = {"rings": {"counted": 1001000, "stripped": 1000000},
+                                             "balls": {"counted": 1000000, "stripped": 1000000}}
+
+
+def store_page(folder: Path) -> Path:
+    """A page with every figure filled, made by the programs as a user would."""
+    import dashboard
+    import history
+    from stored_run import read_run
+    runs = store_history(folder)
+    for path in runs:
+        history.append(folder / "history.jsonl", read_run(path))
+    page = folder / "dashboard.html"
+    page.write_text(dashboard.render(read_run(runs[-1]), history.read(folder / "history.jsonl"), INSTRUCTIONS,
+                                     "2026-04-02", dashboard.CHART_JS.read_text(encoding="utf-8")), encoding="utf-8")
+    return page
+
+
+if __name__ == "__main__":  # a page to look at: tests/bench/sample.py FOLDER
+    print(store_page(Path(sys.argv[1])))

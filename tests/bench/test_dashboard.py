@@ -1,0 +1,124 @@
+"""The page as text: complete, self-contained, and honest about what was not measured."""
+from __future__ import annotations
+
+import json
+import re
+import subprocess
+import sys
+import tempfile
+import unittest
+from pathlib import Path
+from typing import Any
+
+import sample
+import dashboard
+import summary
+from stored_run import read_run
+
+CHART_JS = "/* Chart.js is not looked at here */"
+
+
+def page_of(data: dict[str, Any], instructions: dict[str, Any] | None = None) -> str:
+    """The page of one run without a history."""
+    with tempfile.TemporaryDirectory() as folder:
+        run = read_run(sample.store(Path(folder), "run", data))
+        return dashboard.render(run, [], instructions or {}, "", CHART_JS)
+
+
+def embedded(page: str, element_id: str) -> Any:
+    """JSON that the page carries."""
+    found = re.search(rf'<script type="application/json" id="{element_id}">(.*?)</script>', page, re.DOTALL)
+    assert found
+    return json.loads(found[1])
+
+
+class Page(unittest.TestCase):
+    def test_it_loads_nothing_from_elsewhere(self) -> None:
+        with tempfile.TemporaryDirectory() as folder:
+            page = sample.store_page(Path(folder)).read_text(encoding="utf-8")
+        self.assertNotRegex(page, r"(?i)(src|href|srcset|action)\s*=\s*[\"']?\s*(https?:|//)")
+        self.assertNotRegex(page, r"(?i)url\(\s*[\"']?\s*(https?:|//)")
+        self.assertNotRegex(page, r"(?i)@import|<link[^>]+stylesheet|<script[^>]+\ssrc|<iframe|<img")
+        self.assertNotIn(str(sample.ROOT), page)
+
+    def test_every_figure_has_title_axes_caption_and_numbers(self) -> None:
+        page = page_of(sample.google_json(), sample.INSTRUCTIONS)
+        figures = re.findall(r'<figure class="plot">(.*?)</figure>', page, re.DOTALL)
+        self.assertEqual(len(figures), 13)
+        for figure in figures:
+            for part in ("<h3>", "<canvas", "<figcaption>", "<details>", "<tbody><tr>"):
+                self.assertIn(part, figure)
+        for chart in embedded(page, "figures"):
+            for axis in ("value",) if chart["type"] == "bar" else ("x", "y"):
+                self.assertRegex(chart[axis]["title"], r"nodes|threads|speed-up|minutes|ns|ms|%|bytes|GB/s")
+
+    def test_the_paper_stands_beside_the_cases(self) -> None:
+        page = page_of(sample.google_json())
+        chart = embedded(page, "figures")[0]
+        paper = next(series for series in chart["series"] if "i7-6700HQ" in series["label"])
+        self.assertEqual(dict(zip(chart["categories"], paper["values"])),
+                         {"capture, whole": 58.25, "capture, closing": 58.25, "edge_closure, whole": 110.2,
+                          "large_capture, closing": None, "ring_pull, whole, 200 elements": 10.1})
+        self.assertIn("edge_closure, whole: 1,680 times faster", page)
+
+    def test_what_is_not_measured_names_its_command(self) -> None:
+        page = page_of(sample.google_json(only="element/"))
+        self.assertEqual(page.count("Not measured in this run."), 12)
+        for suite in ("case", "growth", "absent", "kernel"):
+            self.assertIn(f"bench/run --benchmark_filter=&#x27;^{suite}/&#x27;", page)
+        self.assertIn("No history yet.", page)
+
+    def test_missing_counters_leave_gaps_not_errors(self) -> None:
+        for keep in ("minutes_per_simulated_second", "element_updates_per_second", "nodes", "omp_threads"):
+            data = sample.google_json()
+            for entry in data["benchmarks"]:
+                for key in [key for key in entry if "_" in key or key in ("nodes", "elements")]:
+                    if key not in (keep, "run_name", "run_type", "aggregate_name", "aggregate_unit", "real_time",
+                                   "time_unit"):
+                        del entry[key]
+            self.assertIn("<h1>", page_of(data))
+
+    def test_names_cannot_break_out_of_the_page(self) -> None:
+        data = sample.google_json(machine="</script><b>", only="startup/")
+        data["benchmarks"][0]["run_name"] = "startup/<i>&"
+        page = page_of(data)
+        self.assertNotIn("<b>", page)
+        self.assertNotIn("<i>", page)
+
+    def test_a_benchmark_that_gave_up_is_told(self) -> None:
+        data = sample.google_json(only="element/")
+        data["benchmarks"].append(sample.gave_up("case/x", "no case"))
+        self.assertIn('<p class="alarm">case/x gave up: no case</p>', page_of(data))
+
+
+class Programs(unittest.TestCase):
+    def setUp(self) -> None:
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.folder = Path(folder.name)
+        self.run_file = sample.store(self.folder, "run", sample.google_json())
+
+    def refused(self, *arguments: object) -> str:
+        done = subprocess.run([sys.executable, "-W", "error", sample.BENCH / "dashboard.py", *map(str, arguments)],
+                              capture_output=True, text=True, check=False)
+        self.assertEqual((done.returncode, done.stdout), (2, ""), done.stderr)
+        return done.stderr
+
+    def test_bad_instructions(self) -> None:
+        file = self.folder / "instructions.json"
+        file.write_text('{"rings": {"counted": 1}}', encoding="utf-8")
+        self.assertEqual(self.refused(self.run_file, "--chart-js", self.run_file, "--instructions", file),
+                         f'error: {file}: "rings" must hold the numbers "counted" and "stripped"\n')
+
+    def test_no_chart_js_names_the_package(self) -> None:
+        self.assertEqual(self.refused(self.run_file, "--chart-js", "/none"),
+                         "error: /none: no such file; apt-get install libjs-chart.js\n")
+
+    def test_summary(self) -> None:
+        lines = summary.summary(read_run(self.run_file)).splitlines()
+        self.assertRegex(lines[1], r"^capture, whole +0\.200 +0\.0688 +16 +58\.2 +847 times faster$")
+        self.assertEqual(lines[-1], "the paper's: Core i7-6700HQ, 2.60 GHz")
+
+
+if __name__ == "__main__":
+    unittest.main()
