@@ -64,7 +64,8 @@ Topology cut_runs(const std::vector<Index>& end_a, const std::vector<Index>& end
     } else {
       const auto slot = static_cast<Index>(out.slot_element.size());
       const Index count = places[last - 1].a - begin.a + 1;
-      out.runs.push_back({slot, count, begin.a, begin.offset, static_cast<Index>(out.runs.size())});
+      out.runs.push_back(
+          {slot, count, begin.a, begin.offset, static_cast<Index>(out.runs.size()), begin.offset == 1});
       out.slot_element.resize(out.slot_element.size() + static_cast<std::size_t>(count), -1);
       for (std::size_t i = first; i < last; ++i)
         out.slot_element[static_cast<std::size_t>(slot + places[i].a - begin.a)] = places[i].element;
