@@ -4,7 +4,7 @@
 #include <array>
 #include <cmath>
 
-#include "plan/stage_clock.hpp"
+#include "processor_time.hpp"
 
 namespace cinch::bench {
 namespace {
@@ -60,9 +60,9 @@ double bare_rate(std::int64_t elements) {
   BareChain chain(elements);
   std::array<double, stretches> seconds;
   for (double& stretch : seconds) {
-    const double begin = clock_seconds();
+    const double begin = thread_seconds();
     chain.advance(steps);
-    stretch = clock_seconds() - begin;
+    stretch = thread_seconds() - begin;
   }
   std::nth_element(seconds.begin(), seconds.begin() + stretches / 2, seconds.end());
   return static_cast<double>(elements * steps) / seconds[stretches / 2];

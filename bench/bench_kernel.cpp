@@ -91,10 +91,7 @@ void energies(benchmark::State& state) {
 
 template <class Kernel, class Argument>
 void add(const std::string& name, Kernel kernel, Argument argument) {
-  benchmark::RegisterBenchmark(("kernel/" + name).c_str(), kernel, argument)
-      ->Arg(200)
-      ->Arg(2000)
-      ->UseRealTime();
+  benchmark::RegisterBenchmark(("kernel/" + name).c_str(), kernel, argument)->Arg(200)->Arg(2000);
 }
 
 [[maybe_unused]] const bool registered = [] {
@@ -102,7 +99,7 @@ void add(const std::string& name, Kernel kernel, Argument argument) {
   add("axial_forces_with_ledger", axial_forces, kernel::Book::power);
   add("node_update_of_chain", node_update, 1);
   add("node_update_of_net", node_update, 2);
-  benchmark::RegisterBenchmark("kernel/energies", energies)->Arg(200)->Arg(2000)->UseRealTime();
+  benchmark::RegisterBenchmark("kernel/energies", energies)->Arg(200)->Arg(2000);
   return true;
 }();
 
