@@ -49,7 +49,7 @@ void capture(benchmark::State& state, Stretch stretch, int threads) {
 }
 
 // The net flies towards the ball, then closing threads take up slack in the first of 800 rings.
-constexpr Stretch large_flight{0.001, 20, 40}, large_closing{0.08, 20, 40};
+constexpr Stretch large_flight{0.001, 400, 5}, large_closing{0.08, 400, 5};
 
 void large_capture(benchmark::State& state, Stretch stretch, int threads) {
   static const Scene scene = read_case(case_file("large_capture"));
