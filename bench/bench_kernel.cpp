@@ -47,7 +47,7 @@ struct Chain {
 
 void axial_forces(benchmark::State& state, kernel::Book::Sum book) {
   Chain chain(state.range(0));
-  const kernel::Span span{0, chain.count / lanes, 1, 0, lanes, 0};
+  const kernel::Span span{0, chain.count / lanes, 1, 0, lanes, 0, -1};
   const kernel::AxialArguments arguments = chain.axial();
   const auto kernel = kernels().axial_spans[1][book];
   for (auto _ : state) {

@@ -166,7 +166,7 @@ class Interpreter {
       : topology_(topology),
         numbering_(numbering),
         fused_(chains == Chains::in_one_pass),
-        lists_(reduce_forces(topology, numbering, {})),
+        lists_(reduce_forces(topology, numbering, {}, 256)),  // small graphs shall have many blocks
         force_(at(lists_.force_count), 0) {
     for (const cinch::Run& run : topology.runs)
       for (Index g = 0; g < group_count(run); ++g) groups_.push_back({&run, g});

@@ -103,15 +103,22 @@ void axial_links(const AxialArguments& g, const Link* links, Index begin, Index 
   }
 }
 
+inline void patch(double* force, const Patch& p) {
+  double* const to = force + p.to;
+  if (p.from < 0)
+    for (Index k = 0; k < p.count; ++k) to[k] = 0;
+  else
+    for (Index k = 0; k < p.count; ++k) to[k] = force[p.from + k];
+}
+
 void patch_forces(const AxialArguments& g, const Patch* patches, Index begin, Index end) {
   for (Index i = begin; i < end; ++i) {
     const Patch& p = patches[i];
-    const bool copy = p.from >= 0;
-    for (Index k = 0; k < p.count; ++k) {  // mostly one
-      g.fx[p.to + k] = copy ? g.fx[p.from + k] : 0.0;
-      g.fy[p.to + k] = copy ? g.fy[p.from + k] : 0.0;
-      g.fz[p.to + k] = copy ? g.fz[p.from + k] : 0.0;
+    if (p.count == 1 && p.from >= 0) {  // a chain goes on
+      g.fx[p.to] = g.fx[p.from], g.fy[p.to] = g.fy[p.from], g.fz[p.to] = g.fz[p.from];
+      continue;
     }
+    patch(g.fx, p), patch(g.fy, p), patch(g.fz, p);
   }
 }
 

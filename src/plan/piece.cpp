@@ -214,22 +214,23 @@ kernel::Book::Sum Piece::step_book() const {
   return plan_.damped && plan_.ledger ? kernel::Book::power : kernel::Book::nothing;
 }
 
-// Forces of the block's elements other than those between neighbours.
-void Piece::compute(const Block& b, kernel::Book::Sum book) {
+// Forces of the block's elements: links, and spans up to span_end. Those between neighbours come after the
+// links, for the sums of the ledger.
+void Piece::compute(const Block& b, Index span_end, kernel::Book::Sum book) {
   const ForceReduction& r = reduction_;
+  const auto spans = kernels_.axial_spans[plan_.damped][book];
   if (b.patch_begin < b.patch_end)
     kernels_.patch_forces(axial_, r.patches.data(), b.patch_begin, b.patch_end);
-  if (b.span_begin < b.neighbour_begin)
-    kernels_.axial_spans[plan_.damped][book](axial_, r.spans.data(), b.span_begin, b.neighbour_begin);
-  if (b.link_begin < b.link_end)
-    kernels_.axial_links[plan_.damped][book](axial_, r.links.data(), b.link_begin, b.link_end);
+  if (b.link_begin == b.link_end) {
+    if (b.span_begin < span_end) spans(axial_, r.spans.data(), b.span_begin, span_end);
+    return;
+  }
+  spans(axial_, r.spans.data(), b.span_begin, b.neighbour_begin);
+  kernels_.axial_links[plan_.damped][book](axial_, r.links.data(), b.link_begin, b.link_end);
+  spans(axial_, r.spans.data(), b.neighbour_begin, span_end);
 }
 
-void Piece::compute_neighbours(const Block& b, kernel::Book::Sum book) {
-  kernels_.axial_spans[plan_.damped][book](axial_, reduction_.spans.data(), b.neighbour_begin, b.span_end);
-}
-
-// The same in ascending order, where chains are moved in the pass that computes them.
+// Those between neighbours, in ascending order, where chains are moved in the pass that computes them.
 double Piece::update_neighbours(const Block& b, kernel::Book::Sum book, bool watch) {
   const ForceReduction& r = reduction_;
   const auto update_chain =
@@ -256,10 +257,8 @@ double Piece::move(const Block& b, Index stretch_begin, bool watch) {
 double Piece::compute_and_move(const Block& b, StageClock& clock) {
   const kernel::Book::Sum book = step_book();
   const bool fused = kernels_.update_chain[0][0][0][0] != nullptr, watch = plan_.contacts();
-  double greatest = 0;
-  compute(b, book);
-  if (fused) greatest = update_neighbours(b, book, watch);
-  else compute_neighbours(b, book);
+  compute(b, fused ? b.neighbour_begin : b.span_end, book);
+  double greatest = fused ? update_neighbours(b, book, watch) : 0;
   clock.tick(StageId::axial_forces);
   greatest = std::max(greatest, move(b, fused ? b.chain_stretch_end : b.stretch_begin, watch));
   clock.tick(StageId::gather_and_move);
@@ -329,8 +328,7 @@ void Piece::glance(State& state, double time, double motion, Glance& out) {
   const auto constraints = static_cast<Index>(constraints_.size());
   hold_before(0, constraints);
   for (const Block& block : reduction_.blocks) {
-    compute(block, kernel::Book::energy);
-    compute_neighbours(block, kernel::Book::energy);
+    compute(block, block.span_end, kernel::Book::energy);
     move(block, block.stretch_begin, false);
   }
   kernels_.load_nodes(node_, contacts_.loads(), contacts_.load_count());

@@ -63,8 +63,7 @@ class Piece {
   void bind(State& state);
   NodeView view() const;
   void use_level(int level);
-  void compute(const Block& block, kernel::Book::Sum book);
-  void compute_neighbours(const Block& block, kernel::Book::Sum book);
+  void compute(const Block& block, Index span_end, kernel::Book::Sum book);
   double update_neighbours(const Block& block, kernel::Book::Sum book, bool watch);
   double move(const Block& block, Index stretch_begin, bool watch);
   double compute_and_move(const Block& block, StageClock& clock);

@@ -39,8 +39,8 @@ using Sources = std::vector<Source>;
 class Builder {
  public:
   Builder(const Topology& topology, const Numbering& numbering,
-          const std::vector<kernel::Constraint>& constraints)
-      : topology_(topology), numbering_(numbering), constraints_(constraints) {}
+          const std::vector<kernel::Constraint>& constraints, Index block_size)
+      : topology_(topology), numbering_(numbering), constraints_(constraints), block_size_(block_size) {}
 
   ForceReduction build() {
     cut_blocks();
@@ -83,7 +83,7 @@ class Builder {
     for (Index i = 1; i <= nodes(); ++i) {
       if (i < nodes() && (numbering_.global[at(i)] < 0 || numbering_.global[at(i)] % kernel::grain != 0))
         continue;
-      if (i - out_.edges.back() > kernel::block_size && last > out_.edges.back()) out_.edges.push_back(last);
+      if (i - out_.edges.back() > block_size_ && last > out_.edges.back()) out_.edges.push_back(last);
       last = i;
     }
     if (nodes() > out_.edges.back()) out_.edges.push_back(nodes());
@@ -329,6 +329,7 @@ class Builder {
   const Topology& topology_;
   const Numbering& numbering_;
   const std::vector<kernel::Constraint>& constraints_;
+  Index block_size_;
   ForceReduction out_;
   Index longest_ = lanes;                          ///< block, in whole groups
   Index first_link_ = 0;                           ///< force of the first link
@@ -342,8 +343,8 @@ class Builder {
 }  // namespace
 
 ForceReduction reduce_forces(const Topology& topology, const Numbering& numbering,
-                             const std::vector<kernel::Constraint>& constraints) {
-  return Builder(topology, numbering, constraints).build();
+                             const std::vector<kernel::Constraint>& constraints, Index block_size) {
+  return Builder(topology, numbering, constraints, block_size).build();
 }
 
 }  // namespace cinch

@@ -46,10 +46,11 @@ inline Index group_count(const Run& run) {
   return (run.a + run.count - first_group_node(run) + kernel::lanes - 1) / kernel::lanes;
 }
 
-/// Cuts the nodes of `numbering` into blocks and lays out what each computes and gathers. The groups of a
-/// span find their parameters in the order of the runs, group by group. `constraints` are in local numbers,
-/// ascending.
+/// Cuts the nodes of `numbering` into blocks of at least `block_size` and lays out what each computes and
+/// gathers. The groups of a span find their parameters in the order of the runs, group by group.
+/// `constraints` are in local numbers, ascending.
 ForceReduction reduce_forces(const Topology& topology, const Numbering& numbering,
-                             const std::vector<kernel::Constraint>& constraints);
+                             const std::vector<kernel::Constraint>& constraints,
+                             Index block_size = kernel::block_size);
 
 }  // namespace cinch
