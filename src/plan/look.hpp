@@ -25,6 +25,7 @@ class Look {
   std::int64_t step() const { return state_->step; }
   double time() const { return time_; }  ///< s
   const Assembly& assembly() const { return *assembly_; }
+  const Model& model() const { return *model_; }
 
   /// In the user's numbering; threads that are not there before closing lie on what carries them.
   Vec3 position(Index node) const;       ///< m
