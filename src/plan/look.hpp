@@ -44,6 +44,7 @@ class Look {
 
   /// Stored and dissipated; what the simulation books is zero here.
   const Energies& energy() const { return energy_; }
+  std::size_t memory() const;  ///< bytes, see memory.hpp
 
  private:
   Vec3 speed(Index node) const;

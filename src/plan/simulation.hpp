@@ -5,6 +5,7 @@
 #include "base/result.hpp"
 #include "plan/closing.hpp"
 #include "plan/ledger.hpp"
+#include "plan/memory.hpp"
 #include "plan/preparation.hpp"
 #include "scene/mouth.hpp"
 
@@ -36,6 +37,7 @@ class Simulation {
   ResultModel result_model() const;
   /// All but wall time and status.
   Summary summary();
+  MemoryUse memory() const;
 
   std::int64_t step() const { return state_.step; }
   double time() const { return static_cast<double>(state_.step) * preparation_.dt; }
