@@ -156,12 +156,16 @@ struct Taken {
   bool operator==(const Taken&) const = default;
 };
 
+// Whether chains go in a pass of their own, which leaves only its last group's forces behind.
+enum class Chains { in_two_passes, in_one_pass };
+
 // Does what the lists say. A force is the element's number + 1, so that zero is no element.
 class Interpreter {
  public:
-  Interpreter(const Topology& topology, const Numbering& numbering)
+  Interpreter(const Topology& topology, const Numbering& numbering, Chains chains = Chains::in_one_pass)
       : topology_(topology),
         numbering_(numbering),
+        fused_(chains == Chains::in_one_pass),
         lists_(reduce_forces(topology, numbering, {})),
         force_(at(lists_.force_count), 0) {
     for (const cinch::Run& run : topology.runs)
@@ -177,11 +181,26 @@ class Interpreter {
       ASSERT_EQ(lists_.edges[b], next_node);
       next_node = lists_.edges[b + 1];
       for (Index p = block.patch_begin; p < block.patch_end; ++p) patch(lists_.patches[at(p)]);
-      for (Index s = block.span_begin; s < block.span_end; ++s) compute(lists_.spans[at(s)]);
+      for (Index i = block.span_begin; i < block.neighbour_begin; ++i) {
+        ASSERT_FALSE(groups_[at(lists_.spans[at(i)].parameter)].run->neighbours);
+        compute(lists_.spans[at(i)]);
+      }
       for (Index l = block.link_begin; l < block.link_end; ++l)
         force_[at(lists_.links[at(l)].force)] = topology_.links[at(l)].element + 1;
       std::map<Index, Taken> taken;
-      for (Index s = block.stretch_begin; s < block.stretch_end; ++s) gather(lists_.stretches[at(s)], taken);
+      Index last = -1, chains = 0;
+      for (Index i = block.neighbour_begin; i < block.span_end; ++i) {
+        const kernel::Span& span = lists_.spans[at(i)];
+        ASSERT_GE(span.node, last) << "ascending";
+        ASSERT_EQ(span.step, 1);
+        last = span.node;
+        chains += span.stretch >= 0;
+        if (fused_ && span.stretch >= 0) update(span, lists_.stretches[at(span.stretch)], taken);
+        else compute(span);
+      }
+      ASSERT_EQ(chains, block.chain_stretch_end - block.stretch_begin);
+      for (Index s = fused_ ? block.chain_stretch_end : block.stretch_begin; s < block.stretch_end; ++s)
+        gather(lists_.stretches[at(s)], taken);
       for (Index k = block.kick_begin; k < block.kick_end; ++k) {
         const kernel::Kick& kick = lists_.kicks[at(k)];
         ASSERT_TRUE(moved_.contains(kick.node)) << "kicked after it has moved";
@@ -197,6 +216,7 @@ class Interpreter {
   }
 
   const std::multimap<Index, Index>& rows() const { return rows_; }  // ledger row -> element, as booked
+  int chains() const { return chains_; }                             // met so far
 
  private:
   struct Group {
@@ -227,6 +247,17 @@ class Interpreter {
     }
   }
 
+  void update(const kernel::Span& span, const kernel::Stretch& stretch, std::map<Index, Taken>& taken) {
+    ASSERT_EQ(span.node, stretch.node);
+    ASSERT_EQ(span.groups * kernel::lanes, stretch.count) << "whole groups";
+    ASSERT_EQ(span.force, stretch.plus[0]);
+    ASSERT_EQ(span.force - 1, stretch.minus[0]);
+    compute(span);
+    gather(stretch, taken);
+    for (Index k = 0; k < stretch.count - kernel::lanes; ++k) force_[at(span.force + k)] = unwritten;
+    ++chains_;
+  }
+
   void gather(const kernel::Stretch& s, std::map<Index, Taken>& taken) {
     ASSERT_GT(s.count, 0);
     ASSERT_LE(s.terms, kernel::max_terms);
@@ -235,6 +266,7 @@ class Interpreter {
       ASSERT_TRUE(moved_.insert(s.node + k).second) << "moved once";
       for (Index t = 0; t < s.terms; ++t) {
         std::vector<int> term;
+        ASSERT_TRUE(force_[at(s.plus[t] + k)] != unwritten && force_[at(s.minus[t] + k)] != unwritten);
         if (const int f = force_[at(s.plus[t] + k)]; f != 0) term.push_back(f);
         if (const int f = force_[at(s.minus[t] + k)]; f != 0) term.push_back(-f);
         if (!term.empty()) node.terms.push_back(term);
@@ -242,9 +274,13 @@ class Interpreter {
     }
   }
 
+  static constexpr int unwritten = 1 << 30;
+
   const Topology& topology_;
   const Numbering& numbering_;
+  bool fused_;
   ForceReduction lists_;
+  int chains_ = 0;
   std::vector<int> force_;
   std::vector<Group> groups_;
   std::set<Index> moved_;
@@ -271,23 +307,38 @@ std::vector<int> all_of(const Taken& taken) {
 }
 
 TEST(ForceReduction, EveryNodeTakesItsElementsOnce) {
-  for (const Graph& g : sample_graphs()) {
-    SCOPED_TRACE(g.name);
+  for (const Graph& g : sample_graphs())
+    for (const Chains chains : {Chains::in_two_passes, Chains::in_one_pass}) {
+      SCOPED_TRACE(g.name);
+      const Topology topology = cut(g);
+      const Numbering numbering = Numbering::all(g.nodes);
+      std::vector<std::vector<int>> wanted = incident(g);
+      for (auto& list : wanted) std::sort(list.begin(), list.end());
+      Interpreter interpreter(topology, numbering, chains);
+      for (int step = 0; step < 2; ++step) {  // a buffer that another step has used
+        Index nodes = 0;
+        interpreter.step([&](Index node, const Taken& taken) {
+          ASSERT_EQ(all_of(taken), wanted[at(node)]) << "node " << node << ", step " << step;
+          ++nodes;
+        });
+        ASSERT_FALSE(HasFatalFailure());
+        EXPECT_EQ(nodes, g.nodes);
+      }
+    }
+}
+
+TEST(ForceReduction, ChainsAreFoundInThreadsAndInTheRowsOfANet) {
+  const auto chains = [](const Graph& g) {
     const Topology topology = cut(g);
     const Numbering numbering = Numbering::all(g.nodes);
-    std::vector<std::vector<int>> wanted = incident(g);
-    for (auto& list : wanted) std::sort(list.begin(), list.end());
     Interpreter interpreter(topology, numbering);
-    for (int step = 0; step < 2; ++step) {  // a buffer that another step has used
-      Index nodes = 0;
-      interpreter.step([&](Index node, const Taken& taken) {
-        ASSERT_EQ(all_of(taken), wanted[at(node)]) << "node " << node << ", step " << step;
-        ++nodes;
-      });
-      ASSERT_FALSE(HasFatalFailure());
-      EXPECT_EQ(nodes, g.nodes);
-    }
-  }
+    interpreter.step([](Index, const Taken&) {});
+    return interpreter.chains();
+  };
+  EXPECT_EQ(chains(test::thread_graph(200)), 1);
+  EXPECT_EQ(chains(test::thread_graph(1000)), 4) << "one a block";
+  EXPECT_GE(chains(test::net_graph(100, 100, 1)), 40);
+  EXPECT_EQ(chains(test::thread_graph(20)), 0) << "too short to pay";
 }
 
 TEST(ForceReduction, PiecesTakeTheSameInTheSameOrder) {
@@ -295,7 +346,9 @@ TEST(ForceReduction, PiecesTakeTheSameInTheSameOrder) {
     const Topology topology = cut(g);
     const Numbering all = Numbering::all(g.nodes);
     std::map<Index, Taken> whole;
-    Interpreter(topology, all).step([&](Index node, const Taken& taken) { whole[node] = taken; });
+    Interpreter(topology, all, Chains::in_two_passes).step([&](Index node, const Taken& taken) {
+      whole[node] = taken;
+    });
     for (const int pieces : {2, 3, 5})
       for (const int way : {0, 1, 2})
         for (const int depth : {1, 2}) {
@@ -316,6 +369,36 @@ TEST(ForceReduction, PiecesTakeTheSameInTheSameOrder) {
           }
           EXPECT_EQ(own_nodes, g.nodes);
         }
+  }
+}
+
+// Elements of each row and lane of the ledger in the order in which they are booked.
+using Booked = std::map<std::pair<Index, Index>, std::vector<Index>>;
+
+void book(const Graph& g, Interpreter& interpreter, Booked& booked) {
+  interpreter.step([](Index, const Taken&) {});
+  for (const auto& [row, element] : interpreter.rows())
+    booked[{row, std::min(g.a[at(element)], g.b[at(element)]) % kernel::lanes}].push_back(element);
+}
+
+TEST(ForceReduction, PiecesBookInTheSameOrder) {
+  for (const Graph& g : sample_graphs()) {
+    const Topology topology = cut(g);
+    const Numbering all = Numbering::all(g.nodes);
+    Booked whole;
+    Interpreter interpreter(topology, all);
+    book(g, interpreter, whole);
+    for (const int way : {0, 1, 2}) {
+      SCOPED_TRACE(g.name + ", way " + std::to_string(way));
+      Booked pieces;
+      for (const auto& own : shares(g.nodes, 3, way)) {
+        const Numbering numbering = Numbering::of(own, topology, g.nodes, 1);
+        const Topology local = local_topology(topology, numbering);
+        Interpreter piece(local, numbering);
+        book(g, piece, pieces);
+      }
+      EXPECT_EQ(pieces, whole);
+    }
   }
 }
 

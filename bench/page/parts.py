@@ -57,8 +57,8 @@ def absent(run: Run, instructions: Instructions, counted_on: str) -> Figure:
     note = f" Instructions were counted on {counted_on}." if counted_on else ""
     return Figure(
         "What absent features cost",
-        "Extra time and instructions of a step that carries a feature without using it, against one that lacks it; "
-        "0 % is good, and few percent of time either way are noise." + note,
+        "Extra time and instructions of the solver's step in a scene that lacks the feature, against a program "
+        "stripped of it by hand; 0 % is good, and few percent of time either way are noise." + note,
         measure("^absent/"), ["feature", "extra time, %", "extra instructions, %"], rows,
         bars(first_cells(rows), series, "extra cost of a step, %"))
 
@@ -85,9 +85,10 @@ def kernels(run: Run) -> Figure:
                          counter(result, "bytes_per_second", 1e-9)])
     return Figure(
         "Kernels",
-        "Time that one kernel takes for one item (element, node or near pair); shorter is better.",
+        "Time that one kernel takes for one item (element, node or near pair); shorter is better, on a logarithmic "
+        "scale.",
         measure("^kernel/"), ["kernel, items", "ns per item", "GB/s"], rows,
-        bars(first_cells(rows), [Series("kernel", 0, column(rows, 1))], "time per item, ns"))
+        bars(first_cells(rows), [Series("kernel", 0, column(rows, 1))], "time per item, ns", log=True))
 
 
 def around(run: Run) -> Figure:

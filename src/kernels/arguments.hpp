@@ -18,6 +18,7 @@ struct Span {
   Index parameter;  ///< of the first group; the others follow
   Index force;      ///< where the first lane's force goes; the others follow
   Index row_node;   ///< number of `node` in the whole scene, for the ledger; -1: booked elsewhere
+  Index stretch;    ///< that takes the same nodes and whose first term this is, if step is 1; or -1
 };
 
 /// A single element.

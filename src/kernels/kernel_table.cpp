@@ -27,6 +27,9 @@ CINCH_DECLARE_ISA(base)
 #ifdef CINCH_X86_ISAS
 CINCH_DECLARE_ISA(v3)
 CINCH_DECLARE_ISA(v4)
+namespace v4 {
+void fill_chain(KernelTable& table);
+}
 #endif
 
 namespace {
@@ -45,7 +48,11 @@ KernelTable choose() {
   const bool v3_here = __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma");
   const bool v4_here = v3_here && __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512vl") &&
                        __builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("avx512bw");
-  if (v4_here && allowed("v4")) return make_table("v4", v4::fill);
+  if (v4_here && allowed("v4")) {
+    KernelTable table = make_table("v4", v4::fill);
+    v4::fill_chain(table);
+    return table;
+  }
   if (v3_here && allowed("v3")) return make_table("v3", v3::fill);
 #endif
   if (!allowed("base"))

@@ -16,6 +16,10 @@ struct KernelTable {
   /// [gravity][watch]: gathers element forces and moves nodes; returns the greatest squared speed, if
   /// watched.
   double (*move_nodes[2][2])(const kernel::NodeArguments&, const kernel::Stretch*, Index begin, Index end);
+  /// [damped][power is booked][gravity][watch]: computes a span that names a stretch and moves its nodes, in
+  /// one pass; returns what move_nodes does. Null in instruction sets where two passes are as fast.
+  double (*update_chain[2][2][2][2])(const kernel::AxialArguments&, const kernel::NodeArguments&,
+                                     const kernel::Span&, const kernel::Stretch&);
   /// Adds forces of links to nodes that have moved; returns the greatest squared speed among them.
   double (*kick_nodes)(const kernel::NodeArguments&, const kernel::Kick*, Index begin, Index end);
   /// Adds contact forces likewise; nodes with scale 0 are left alone.

@@ -202,7 +202,7 @@ inline void take_lane(const RingArguments& g, const RingLanes& l, Index lane, co
   sum.note_use(c, -l.gap.at[lane], l.host_use.at[lane], l.thread_use.at[lane]);
 }
 
-// One of the near pairs, which stands in `lane`; returns the distance left to a contact.
+// A pair that may touch, which stands in `lane`; returns the distance left to a contact.
 inline double take_pair(const RingArguments& g, const RingLanes& l, Index lane, const Pair& c,
                         const kernel::RingLane& p, RingSum& sum, LoadWriter& out) {
   if (l.circle.hard.at[lane] > 0) {
@@ -218,7 +218,7 @@ inline double take_pair(const RingArguments& g, const RingLanes& l, Index lane, 
   return gap;
 }
 
-// Books what ring r has felt, and rings [released, r) that have no near pair.
+// Books what ring r has felt, and rings [released, r) that nothing touches.
 inline void close_ring(const RingArguments& g, Index r, RingSum& sum, Index& released) {
   for (; released < r; ++released)
     if (RingTally* const tally = g.tallies[released];
@@ -230,11 +230,13 @@ inline void close_ring(const RingArguments& g, Index r, RingSum& sum, Index& rel
   released = r + 1;
 }
 
-// The near pairs of a batch, ring by ring.
+// The pairs of a batch that may touch, ring by ring.
 inline void take_batch(const RingArguments& g, const RingLanes& lanes, const Pair* pairs, const Index* near,
                        Index count, double* gap, Index& ring, RingSum& sum, Index& released,
                        LoadWriter& out) {
   for (Index i = 0; i < count; ++i) {
+    gap[i] = lanes.gap.at[i];
+    if (!(lanes.looked_at.at[i] > 0)) continue;
     const Pair& c = pairs[near[i]];
     if (c.with != ring) {
       if (ring >= 0) close_ring(g, ring, sum, released);

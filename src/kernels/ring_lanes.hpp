@@ -24,6 +24,7 @@ struct RingLanes {
   // out
   Lane3 on_a, on_b, on_host_a, on_host_b, on_ring, torque;
   Lane1 gap, potential, power, couple_power, host_use, thread_use;
+  Lane1 looked_at;  // 1: touches or is hard
 };
 static_assert(sizeof(RingLanes) <= sizeof(double) * kernel::ring_scratch);
 
@@ -144,8 +145,9 @@ inline void contact_lanes(const kernel::RingArguments& g, RingLanes& l, Index co
     l.gap.at[i] = gap;
     l.host_use.at[i] = kappa * most * most * l.host_share.at[i];
     l.thread_use.at[i] = kappa * (s * s * l.share_a.at[i] + t * t * l.share_b.at[i]);
-    c.hard.at[i] += gap < 0 ? ends : 0.0;
-    c.hard.at[i] += distance > 0 ? 0.0 : 1.0;
+    const double hard = c.hard.at[i] + (gap < 0 ? ends : 0.0) + (distance > 0 ? 0.0 : 1.0);
+    c.hard.at[i] = hard;
+    l.looked_at.at[i] = gap < 0 ? 1.0 : hard;
   }
 }
 
@@ -153,7 +155,7 @@ inline void contact_lanes(const kernel::RingArguments& g, RingLanes& l, Index co
 inline void fill_lanes(const kernel::RingArguments& g, const kernel::Pair* pairs, const Index* near,
                        Index count, RingLanes& l) {
   if (g.golden) {
-    for (Index i = 0; i < count; ++i) l.circle.hard.at[i] = 1;
+    for (Index i = 0; i < count; ++i) l.circle.hard.at[i] = l.looked_at.at[i] = 1;
     return;
   }
   for (Index i = 0; i < count; ++i)

@@ -214,29 +214,54 @@ kernel::Book::Sum Piece::step_book() const {
   return plan_.damped && plan_.ledger ? kernel::Book::power : kernel::Book::nothing;
 }
 
+// Forces of the block's elements other than those between neighbours.
 void Piece::compute(const Block& b, kernel::Book::Sum book) {
   const ForceReduction& r = reduction_;
   if (b.patch_begin < b.patch_end)
     kernels_.patch_forces(axial_, r.patches.data(), b.patch_begin, b.patch_end);
-  kernels_.axial_spans[plan_.damped][book](axial_, r.spans.data(), b.span_begin, b.span_end);
+  if (b.span_begin < b.neighbour_begin)
+    kernels_.axial_spans[plan_.damped][book](axial_, r.spans.data(), b.span_begin, b.neighbour_begin);
   if (b.link_begin < b.link_end)
     kernels_.axial_links[plan_.damped][book](axial_, r.links.data(), b.link_begin, b.link_end);
 }
 
+void Piece::compute_neighbours(const Block& b, kernel::Book::Sum book) {
+  kernels_.axial_spans[plan_.damped][book](axial_, reduction_.spans.data(), b.neighbour_begin, b.span_end);
+}
+
+// The same in ascending order, where chains are moved in the pass that computes them.
+double Piece::update_neighbours(const Block& b, kernel::Book::Sum book, bool watch) {
+  const ForceReduction& r = reduction_;
+  const auto update_chain =
+      kernels_.update_chain[plan_.damped][book == kernel::Book::power][plan_.gravity][watch];
+  double greatest = 0;
+  for (Index i = b.neighbour_begin; i < b.span_end; ++i) {
+    const kernel::Span& span = r.spans[at(i)];
+    if (span.stretch < 0) kernels_.axial_spans[plan_.damped][book](axial_, r.spans.data(), i, i + 1);
+    else greatest = std::max(greatest, update_chain(axial_, node_, span, r.stretches[at(span.stretch)]));
+  }
+  return greatest;
+}
+
 // What supports do comes later.
-double Piece::move(const Block& b, bool watch) {
+double Piece::move(const Block& b, Index stretch_begin, bool watch) {
   const ForceReduction& r = reduction_;
   double greatest =
-      kernels_.move_nodes[plan_.gravity][watch](node_, r.stretches.data(), b.stretch_begin, b.stretch_end);
+      kernels_.move_nodes[plan_.gravity][watch](node_, r.stretches.data(), stretch_begin, b.stretch_end);
   if (b.kick_begin < b.kick_end)
     greatest = std::max(greatest, kernels_.kick_nodes(node_, r.kicks.data(), b.kick_begin, b.kick_end));
   return greatest;
 }
 
-double Piece::compute_and_move(const Block& block, StageClock& clock) {
-  compute(block, step_book());
+double Piece::compute_and_move(const Block& b, StageClock& clock) {
+  const kernel::Book::Sum book = step_book();
+  const bool fused = kernels_.update_chain[0][0][0][0] != nullptr, watch = plan_.contacts();
+  double greatest = 0;
+  compute(b, book);
+  if (fused) greatest = update_neighbours(b, book, watch);
+  else compute_neighbours(b, book);
   clock.tick(StageId::axial_forces);
-  const double greatest = move(block, plan_.contacts());
+  greatest = std::max(greatest, move(b, fused ? b.chain_stretch_end : b.stretch_begin, watch));
   clock.tick(StageId::gather_and_move);
   return greatest;
 }
@@ -305,7 +330,8 @@ void Piece::glance(State& state, double time, double motion, Glance& out) {
   hold_before(0, constraints);
   for (const Block& block : reduction_.blocks) {
     compute(block, kernel::Book::energy);
-    move(block, false);
+    compute_neighbours(block, kernel::Book::energy);
+    move(block, block.stretch_begin, false);
   }
   kernels_.load_nodes(node_, contacts_.loads(), contacts_.load_count());
   hold_after(0, constraints);

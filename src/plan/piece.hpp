@@ -65,7 +65,9 @@ class Piece {
   NodeView view() const;
   void use_level(int level);
   void compute(const Block& block, kernel::Book::Sum book);
-  double move(const Block& block, bool watch);
+  void compute_neighbours(const Block& block, kernel::Book::Sum book);
+  double update_neighbours(const Block& block, kernel::Book::Sum book, bool watch);
+  double move(const Block& block, Index stretch_begin, bool watch);
   double compute_and_move(const Block& block, StageClock& clock);
   kernel::Book::Sum step_book() const;
   void lend(Glance& out);

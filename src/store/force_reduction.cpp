@@ -5,6 +5,8 @@
 #include <map>
 #include <set>
 
+#include "store/chain_ranges.hpp"
+
 namespace cinch {
 namespace {
 
@@ -58,7 +60,7 @@ class Builder {
   };
   struct OfBlock {
     std::vector<kernel::Patch> patches;
-    std::vector<kernel::Span> spans;
+    std::vector<kernel::Span> spans, neighbours;
     Sources sources;
   };
 
@@ -177,8 +179,8 @@ class Builder {
       while (end < groups &&
              booked_as(node + end * lanes) == (row_node < 0 ? -1 : row_node + (end - g) * lanes))
         ++end;
-      of_block_[block].spans.push_back(
-          {node + g * lanes, end - g, run.offset, parameter + g, force + g * lanes, row_node});
+      (run.neighbours ? of_block_[block].neighbours : of_block_[block].spans)
+          .push_back({node + g * lanes, end - g, run.offset, parameter + g, force + g * lanes, row_node, -1});
       g = end;
     }
   }
@@ -201,16 +203,26 @@ class Builder {
     block.patch_begin = size(out_.patches);
     append(out_.patches, of_block_[b].patches);
     block.patch_end = size(out_.patches);
-    block.span_begin = size(out_.spans);
-    append(out_.spans, of_block_[b].spans);
-    block.span_end = size(out_.spans);
     block.link_begin = size(out_.links);
     while (size(out_.links) < size(topology_.links) && topology_.links[out_.links.size()].a < end) add_link();
     block.link_end = size(out_.links);
-    block.stretch_begin = size(out_.stretches);
     block.kick_begin = size(out_.kicks);
+    stretches_.clear();
     add_stretches(edge(b), end, of_block_[b].sources);
     add_link_kicks(end);
+    const ChainRanges chains = cut_out_chains(of_block_[b].neighbours, stretches_);
+    block.span_begin = size(out_.spans);
+    append(out_.spans, of_block_[b].spans);
+    block.neighbour_begin = size(out_.spans);
+    block.stretch_begin = size(out_.stretches);
+    for (kernel::Span span : chains.spans) {
+      if (span.stretch >= 0) span.stretch += block.stretch_begin;
+      out_.spans.push_back(span);
+    }
+    block.span_end = size(out_.spans);
+    append(out_.stretches, chains.chain_stretches);
+    block.chain_stretch_end = size(out_.stretches);
+    append(out_.stretches, chains.stretches);
     block.stretch_end = size(out_.stretches);
     block.kick_end = size(out_.kicks);
     block.constraint_begin = next_constraint_;
@@ -311,7 +323,7 @@ class Builder {
         for (std::size_t side = 0; side < 2; ++side)
           if (forces[side] != 0) out_.kicks.push_back({begin + k, forces[side] + k, side == 0 ? 1.0 : -1.0});
     }
-    out_.stretches.push_back(stretch);
+    stretches_.push_back(stretch);
   }
 
   const Topology& topology_;
@@ -322,6 +334,7 @@ class Builder {
   Index first_link_ = 0;                           ///< force of the first link
   std::vector<Layout> layout_;                     ///< run
   std::vector<OfBlock> of_block_;                  ///< block
+  std::vector<kernel::Stretch> stretches_;         ///< of the present block
   std::multimap<Index, kernel::Kick> link_kicks_;  ///< by node, in the order of the links
   Index next_constraint_ = 0;
 };

@@ -8,7 +8,8 @@
 // Nodes go block by block in ascending order: the elements whose lower end lies in the block write their
 // forces, then the block's nodes move. Every element is computed before one of its nodes moves, as its other
 // end lies further on. So a force need not outlive the way to its upper end, and the buffer stays in the
-// first-level cache: each run has a stretch of it as long as a block, with room before it for the last forces
+// first-level cache (most forces of a chain, which its pass may keep in registers, are never written at all):
+// each run has a stretch of it as long as a block, with room before it for the last forces
 // of the block before (a ring as long as that way where the two ends lie far apart).
 #pragma once
 #include <vector>
@@ -21,9 +22,9 @@ namespace cinch {
 /// What belongs to a block of nodes, as stretches of the lists below.
 struct Block {
   Index patch_begin, patch_end;
-  Index span_begin, span_end;
+  Index span_begin, neighbour_begin, span_end;  ///< last come those that join neighbours, ascending
   Index link_begin, link_end;
-  Index stretch_begin, stretch_end;
+  Index stretch_begin, chain_stretch_end, stretch_end;  ///< first come those that such a span names
   Index kick_begin, kick_end;
   Index constraint_begin, constraint_end;
 };

@@ -94,7 +94,8 @@ Topology local_topology(const Topology& whole, const Numbering& numbering) {
       }
       const bool goes_on = last_a >= 0 && a == last_a + 1 && b == last_b + 1;
       if (!goes_on)
-        out.runs.push_back({static_cast<Index>(out.slot_element.size()), 0, a, b - a, run.origin});
+        out.runs.push_back(
+            {static_cast<Index>(out.slot_element.size()), 0, a, b - a, run.origin, run.neighbours});
       ++out.runs.back().count;
       out.slot_element.push_back(whole.slot_element[at(run.slot + k)]);
       last_a = a, last_b = b;

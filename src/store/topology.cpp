@@ -91,7 +91,8 @@ Topology cut_runs(std::span<const Index> end_a, std::span<const Index> end_b) {
     } else {
       const auto slot = static_cast<Index>(out.slot_element.size());
       const Index count = places[last - 1].a - begin.a + 1;
-      out.runs.push_back({slot, count, begin.a, begin.offset, static_cast<Index>(out.runs.size())});
+      out.runs.push_back(
+          {slot, count, begin.a, begin.offset, static_cast<Index>(out.runs.size()), begin.offset == 1});
       out.slot_element.resize(out.slot_element.size() + static_cast<std::size_t>(count), -1);
       for (std::size_t i = first; i < last; ++i)
         out.slot_element[static_cast<std::size_t>(slot + places[i].a - begin.a)] = places[i].element;

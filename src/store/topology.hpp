@@ -13,7 +13,8 @@ namespace cinch {
 /// no element, so that one run bridges small gaps.
 struct Run {
   Index slot, count, a, offset;
-  Index origin;  ///< number of the run in the whole scene's topology
+  Index origin;     ///< number of the run in the whole scene's topology
+  bool neighbours;  ///< offset 1 there; a piece that lacks nodes may bring others to 1
 };
 
 /// A single element.

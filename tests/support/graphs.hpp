@@ -81,7 +81,7 @@ inline Graph random_graph(Index nodes, Index elements, unsigned seed) {
 inline std::vector<Graph> sample_graphs() {
   std::vector<Graph> list;
   for (int sub = 1; sub <= 3; ++sub)
-    for (const auto& [columns, rows] : {std::pair{1, 1}, {4, 3}, {10, 10}, {37, 12}, {90, 9}}) {
+    for (const auto& [columns, rows] : {std::pair{1, 1}, {4, 3}, {10, 10}, {37, 12}, {90, 9}, {8, 60}}) {
       list.push_back(net_graph(columns, rows, sub));
       list.push_back(shuffled(list.back(), 7));
     }

@@ -1,0 +1,118 @@
+// Run time of each case: phases as steps of the solver from a state that the case really comes to, and whole
+// cases as runs of the program, start-up and output included. minutes_per_simulated_second is the figure that
+// the paper's run times translate into.
+#include <benchmark/benchmark.h>
+
+#include <cmath>
+#include <cstdlib>
+
+#include "counters.hpp"
+#include "film.hpp"
+#include "output/summary_json.hpp"
+#include "scenes.hpp"
+#include "temporary_folder.hpp"
+
+namespace cinch::bench {
+namespace {
+
+// Always the same stretch of a case, whatever the mode, so that runs can be compared.
+struct Stretch {
+  double from;                  ///< s
+  std::int64_t batch, batches;  ///< steps between two readings of the clock
+};
+
+void measure(benchmark::State& state, Simulation& simulation, std::int64_t batch) {
+  count_handover(state);
+  const StageSeconds before = simulation.stepper().seconds();
+  const double begin = clock_seconds();
+  for (auto _ : state) simulation.advance_to(simulation.step() + batch);
+  const double wall = clock_seconds() - begin;
+  StageSeconds seconds = simulation.stepper().seconds();
+  for (std::size_t s = 0; s < stage_count; ++s) seconds[s] -= before[s];
+  const Model& model = simulation.model();
+  const double steps = static_cast<double>(state.iterations() * batch);
+  count_updates(state, steps * static_cast<double>(model.elements));
+  count_simulated(state, steps * simulation.preparation().dt);
+  count_scene(state, model.nodes, model.elements, simulation.threads());
+  count_shares(state, seconds, wall);
+}
+
+// The flight unfolds the stowed net; the closing phase has its threads in many rings and the net on the ball.
+constexpr Stretch deployment{0.5, 500, 200}, closing{1.70, 500, 200};
+
+void capture(benchmark::State& state, Stretch stretch, int threads) {
+  static const Scene scene = read_case(case_file("capture"));
+  static const Film film(scene, {deployment.from, closing.from});
+  Simulation simulation(scene, threads);
+  film.wind(simulation, stretch.from);
+  measure(state, simulation, stretch.batch);
+}
+
+// The net flies towards the ball, then closing threads take up slack in the first of 800 rings.
+constexpr Stretch large_flight{0.001, 400, 5}, large_closing{0.08, 400, 5};
+
+void large_capture(benchmark::State& state, Stretch stretch, int threads) {
+  static const Scene scene = read_case(case_file("large_capture"));
+  Simulation simulation(scene, threads);
+  if (stretch.from < 0.05) {
+    simulation.advance_to(std::llround(stretch.from / simulation.preparation().dt));
+  } else {
+    static const Film film(scene, {stretch.from});
+    film.wind(simulation, stretch.from);
+  }
+  measure(state, simulation, stretch.batch);
+}
+
+// Elements join when a case closes.
+double element_updates(const Preparation& p) {
+  if (p.phases.size() == 1) return static_cast<double>(p.end_step) * p.phases[0].model.elements;
+  return static_cast<double>(p.closing_step) * p.phases[0].model.elements +
+         static_cast<double>(p.end_step - p.closing_step) * p.phases[1].model.elements;
+}
+
+void whole(benchmark::State& state, const std::string& name, int threads) {
+  const TemporaryFolder folder;
+  const std::string command = "'" CINCH_PROGRAM "' run '" + case_file(name) +
+                              "' --quiet --overwrite --threads " + std::to_string(threads) + " --out '" +
+                              folder.path().string() + "' > /dev/null";
+  count_handover(state);
+  const double begin = clock_seconds();
+  for (auto _ : state)
+    if (std::system(command.c_str()) != 0) return state.SkipWithError("the program failed");
+  const double wall = (clock_seconds() - begin) / static_cast<double>(state.iterations());
+  const Summary summary = read_summary(folder.path() / "summary.json");
+  const auto runs = static_cast<double>(state.iterations());
+  count_updates(state, runs * element_updates(prepare(read_case(case_file(name)))));
+  count_simulated(state, runs * summary.simulated_seconds);
+  count_scene(state, summary.nodes, summary.elements, summary.threads);
+  StageSeconds seconds{};
+  for (std::size_t s = 0; s < stage_count; ++s) seconds[s] = summary.stages.at(s).seconds;
+  count_shares(state, seconds, wall);
+}
+
+template <class Run, class... Arguments>
+void add(const std::string& name, std::int64_t iterations, int threads, Run run, Arguments... arguments) {
+  benchmark::RegisterBenchmark(("case/" + name + "/threads:" + std::to_string(threads)).c_str(), run,
+                               arguments..., threads)
+      ->Iterations(iterations)
+      ->UseRealTime()
+      ->Unit(benchmark::kMillisecond);
+}
+
+[[maybe_unused]] const bool registered = [] {
+  for (const int threads : thread_counts()) {
+    add("capture/deployment", deployment.batches, threads, capture, deployment);
+    add("capture/closing", closing.batches, threads, capture, closing);
+    add("large_capture/flight", large_flight.batches, threads, large_capture, large_flight);
+    add("large_capture/closing/long", large_closing.batches, threads, large_capture, large_closing);
+    // where threads do not pay, a whole case of a million steps takes minutes
+    const std::string longer = threads > 1 ? "/long" : "";
+    for (const char* name : {"ring_pull", "edge_closure", "capture"})
+      add(name + ("/whole" + longer), 1, threads, whole, std::string(name));
+    add("large_capture/whole/long", 1, threads, whole, std::string("large_capture"));
+  }
+  return true;
+}();
+
+}  // namespace
+}  // namespace cinch::bench

@@ -1,0 +1,107 @@
+// Each kernel on its own, on arrays that fit into the first (200) or second (2000) level of caches. Bytes are
+// those that a kernel reads and writes once; what it shares with neighbours counts once.
+#include <benchmark/benchmark.h>
+
+#include "base/aligned.hpp"
+#include "counters.hpp"
+#include "kernels/kernel_table.hpp"
+
+namespace cinch::bench {
+namespace {
+
+using kernel::lanes;
+
+void count(benchmark::State& state, double bytes_per_item) {
+  const double items = static_cast<double>(state.iterations() * state.range(0));
+  state.counters["items_per_second"] = benchmark::Counter(items, benchmark::Counter::kIsRate);
+  count_bytes(state, bytes_per_item * items);
+}
+
+/// A taut chain of whole groups, with what its kernels need; forces begin one group into their arrays.
+struct Chain {
+  explicit Chain(std::int64_t elements) : count(static_cast<Index>(elements)) {
+    const auto nodes = static_cast<std::size_t>(count + lanes);
+    for (auto& field : fields) field.assign(nodes, 0.0);
+    for (auto& force : forces) force.assign(nodes + lanes, 0.0);
+    for (std::size_t i = 0; i < nodes; ++i) fields[0][i] = 1.01 * 0.005 * static_cast<double>(i);
+    scale.assign(nodes, 1e-6 / 1.5e-5);
+    parameter.assign(static_cast<std::size_t>(count / lanes), 0);
+    for (const double value : {6.28e5, 0.655, 0.005}) palette.insert(palette.end(), lanes, value);
+    booked.assign(static_cast<std::size_t>(count / kernel::grain + 1) * lanes, 0.0);
+  }
+  kernel::AxialArguments axial() {
+    return {fields[0].data(), fields[1].data(), fields[2].data(), fields[3].data(),
+            fields[4].data(), fields[5].data(), parameter.data(), palette.data(),
+            forces[0].data(), forces[1].data(), forces[2].data(), booked.data()};
+  }
+  kernel::NodeArguments node() {
+    return {fields[0].data(), fields[1].data(), fields[2].data(), fields[3].data(),
+            fields[4].data(), fields[5].data(), scale.data(),     forces[0].data(),
+            forces[1].data(), forces[2].data(), {0, 0, 0},        1e-9};
+  }
+
+  Index count;
+  AlignedVector<double> fields[6], forces[3], scale, palette, booked;
+  std::vector<Index> parameter;
+};
+
+void axial_forces(benchmark::State& state, kernel::Book::Sum book) {
+  Chain chain(state.range(0));
+  const kernel::Span span{0, chain.count / lanes, 1, 0, lanes, 0};
+  const kernel::AxialArguments arguments = chain.axial();
+  const auto kernel = kernels().axial_spans[1][book];
+  for (auto _ : state) {
+    kernel(arguments, &span, 0, 1);
+    benchmark::ClobberMemory();
+  }
+  count(state, 9 * sizeof(double));
+}
+
+// Nodes of a chain take the forces of two elements, those of a net four.
+void node_update(benchmark::State& state, Index terms) {
+  Chain chain(state.range(0));
+  kernel::Stretch stretch{0, chain.count, terms, {lanes, lanes, lanes}, {lanes - 1, 0, 0}};
+  const kernel::NodeArguments arguments = chain.node();
+  const auto kernel = kernels().move_nodes[0][0];
+  for (auto _ : state) {
+    kernel(arguments, &stretch, 0, 1);
+    benchmark::ClobberMemory();
+  }
+  count(state, 16 * sizeof(double));
+}
+
+void energies(benchmark::State& state) {
+  Chain chain(state.range(0));
+  const kernel::EnergyArguments arguments{chain.fields[0].data(),
+                                          chain.fields[1].data(),
+                                          chain.fields[2].data(),
+                                          chain.fields[3].data(),
+                                          chain.fields[4].data(),
+                                          chain.fields[5].data(),
+                                          chain.forces[0].data(),
+                                          chain.forces[1].data(),
+                                          chain.forces[2].data(),
+                                          0.5,
+                                          chain.scale.data(),
+                                          {0, 0, -9.81},
+                                          chain.count};
+  for (auto _ : state) benchmark::DoNotOptimize(kernels().node_energies(arguments));
+  count(state, 10 * sizeof(double));
+}
+
+template <class Kernel, class Argument>
+void add(const std::string& name, Kernel kernel, Argument argument) {
+  benchmark::RegisterBenchmark(("kernel/" + name).c_str(), kernel, argument)->Arg(200)->Arg(2000);
+}
+
+[[maybe_unused]] const bool registered = [] {
+  add("axial_forces", axial_forces, kernel::Book::nothing);
+  add("axial_forces_with_ledger", axial_forces, kernel::Book::power);
+  add("node_update_of_chain", node_update, 1);
+  add("node_update_of_net", node_update, 2);
+  benchmark::RegisterBenchmark("kernel/energies", energies)->Arg(200)->Arg(2000);
+  return true;
+}();
+
+}  // namespace
+}  // namespace cinch::bench

@@ -1,0 +1,46 @@
+// Scenes that several suites measure, as case texts.
+#pragma once
+#include <string>
+
+#include "input/case_reader.hpp"
+
+namespace cinch::bench {
+
+/// What a scene without contacts can have besides elements and nodes.
+struct Features {
+  bool damping = true, ledger = true, gravity = false;
+};
+
+inline std::string case_head(const Features& has) {
+  return std::string("schema = 1\n[time]\nend_s = 100\nstep_s = 1e-6\n[output]\nledger = ") +
+         (has.ledger ? "true" : "false") +
+         (has.gravity ? "\n[gravity]\nacceleration_m_s2 = [0, 0, -9.81]" : "") +
+         "\n[material.m]\nyoungs_modulus_Pa = 1e9\ndensity_kg_m3 = 970\n" +
+         (has.damping ? "" : "damping_ratio = 0\n");
+}
+
+/// ring_pull's thread with as many elements of 5 mm as asked for, taut by 1 %.
+inline Scene chain_scene(std::int64_t elements, bool ledger) {
+  const double rest = 0.005 * static_cast<double>(elements);
+  return parse_case(case_head({.ledger = ledger}) +
+                        "[thread.main]\nmaterial = \"m\"\ndiameter_m = 0.002\nelements = " +
+                        std::to_string(elements) + "\npoints_m = [[0, 0, 0], [" +
+                        std::to_string(1.01 * rest) + ", 0, 0]]\nlength_m = " + std::to_string(rest) + "\n",
+                    "chain.toml");
+}
+
+/// A flying square net of knots x knots with one element a mesh side, stretched a little so that it moves.
+inline std::string net_text(std::int64_t knots, const Features& has = {}) {
+  const std::string side = std::to_string(0.1 * static_cast<double>(knots - 1));
+  return case_head(has) + "[net.main]\nmaterial = \"m\"\ndiameter_m = 0.002\nsize_m = [" + side + ", " +
+         side + "]\nmesh_m = 0.1\nstowed_factor = 1.001\nvelocity_m_s = [0, 0, 1]\n";
+}
+
+inline Scene net_scene(std::int64_t knots, const Features& has = {}) {
+  return parse_case(net_text(knots, has), "net.toml");
+}
+
+/// One of the repository's own cases.
+inline std::string case_file(const std::string& name) { return CINCH_SOURCE_DIR "/cases/" + name + ".toml"; }
+
+}  // namespace cinch::bench
