@@ -20,9 +20,8 @@ void startup(benchmark::State& state, const std::string& text) {
   for (auto _ : state) {
     const Simulation simulation(parse_case(text, "startup.toml"));
     benchmark::DoNotOptimize(simulation.state().x.data());
-    const Assembly& assembly = simulation.preparation().assembly;
-    count_scene(state, static_cast<Index>(assembly.nodes.size()),
-                static_cast<Index>(assembly.elements.size()), simulation.threads());
+    const Model& whole = simulation.preparation().whole();
+    count_scene(state, whole.nodes, whole.elements, simulation.threads());
   }
 }
 

@@ -184,9 +184,8 @@ struct Watched {
 
 // Every pair that is nearer than its reach, and so every pair in contact, must stand in the list that the
 // stepper uses for the present state.
-void look(Simulation& simulation, Watched& seen) {
+void look(Simulation& simulation, const Assembly& assembly, Watched& seen) {
   State& state = simulation.state();
-  const Assembly& assembly = simulation.preparation().assembly;
   const Model& model = simulation.model();
   simulation.look();
   const ContactList& list = simulation.stepper().contacts();
@@ -233,18 +232,20 @@ const Sets& near_capture() {
 TEST(Broadphase, ARunningCaptureMissesNoContact) {
   Sets sets = near_capture();
   sets.push_back({"contact.margin_m", "0.0005"});  // small: many lists, each used to its end
-  Simulation simulation(read("capture", sets), 1);
+  const Scene scene = read("capture", sets);
+  const Assembly assembly = assemble(scene);
+  Simulation simulation(scene, 1);
   simulation.advance_to(12000);
   Watched seen;
   while (simulation.step() < 40000 && !HasFatalFailure()) {
     // to the last step before a new list, and the first one after it
     const std::int64_t lists = simulation.stepper().contacts().rebuilds();
     while (simulation.stepper().contacts().rebuilds() == lists && simulation.step() < 40000) {
-      if (simulation.step() % 16 == 0) look(simulation, seen);
+      if (simulation.step() % 16 == 0) look(simulation, assembly, seen);
       simulation.advance_to(simulation.step() + 1);
       simulation.look();
     }
-    look(simulation, seen);
+    look(simulation, assembly, seen);
     simulation.advance_to(simulation.step() + 400);
   }
   EXPECT_GT(seen.pairs_near, 1000);

@@ -159,8 +159,8 @@ TEST(Closing, LayingCostsATwelfthOfTheThreadsMass) {
     simulation.advance_to(200);
     double mass = 0;  // of the laid thread
     const Assembly& assembly = simulation.preparation().assembly;
-    for (std::size_t i = at(assembly.nodes_before); i < assembly.nodes.size(); ++i)
-      mass += assembly.nodes[i].mass;
+    for (Index i = assembly.nodes_before; i < assembly.node_count(); ++i)
+      mass += simulation.model().mass[at(i)];
     const Summary summary = simulation.summary();
     const double expected = mass * dv2 / 12 * (1 - 1.0 / (n * n));
     EXPECT_NEAR(summary.energy.booked_activation, expected, 1e-12 * summary.energy_initial);
@@ -200,9 +200,10 @@ TEST(Closing, SeparationPutsInTheKineticEnergyOfTheJumps) {
     Simulation simulation(
         read("capture", {{"closing.time_s", time}, {"mechanism.m2.separation_a_m_s", "[-3, 2, 0.5]"}}), 1);
     const Assembly& a = simulation.preparation().assembly;
+    const auto& all = simulation.preparation().whole().mass;
     double expected = 0;
     const auto add = [&](const std::string& node, const Vec3& v, const Vec3& jump) {
-      const double mass = a.nodes[at(a.node_of(node))].mass;
+      const double mass = all[at(a.node_of(node))];
       expected += mass / 2 * ((v + jump).squaredNorm() - v.squaredNorm());
     };
     // launched at 1 m/s, 35 degrees to Z along the diagonals; the towing threads are slack yet
@@ -216,8 +217,8 @@ TEST(Closing, SeparationPutsInTheKineticEnergyOfTheJumps) {
       add(mechanism + ".a", launch[m], jump_a[m]);
       add(mechanism + ".b", launch[m], jump_b[m]);
     }
-    const double split = a.nodes[at(a.node_of("mechanism.m2.a"))].mass;
-    const double launcher = a.nodes[at(a.node_of("mechanism.m2.launcher"))].mass;
+    const double split = all[at(a.node_of("mechanism.m2.a"))];
+    const double launcher = all[at(a.node_of("mechanism.m2.launcher"))];
     add("mechanism.m2.launcher", launch[1], -split / launcher * (jump_a[1] + jump_b[1]));
 
     simulation.advance_to(simulation.preparation().closing_step);

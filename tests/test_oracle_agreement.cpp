@@ -75,8 +75,8 @@ Field velocities(const State& s) {
 }
 
 // The assembly of a simulation whose last phase has begun, as if it had been in that state from the start.
-Assembly as_it_stands(const Simulation& simulation) {
-  Assembly assembly = simulation.preparation().assembly;
+Assembly as_it_stands(const Simulation& simulation, const Scene& scene) {
+  Assembly assembly = assemble(scene);
   const Field x = positions(simulation.state()), v = velocities(simulation.state());
   EXPECT_EQ(x.size(), assembly.nodes.size()) << "the closing has not begun";
   for (std::size_t i = 0; i < x.size(); ++i)
@@ -179,7 +179,7 @@ Field element_forces(const Assembly& assembly, const Field& x, const Field& v) {
 
 // Forces and potentials of one state, each to `tolerance` times its largest value.
 void compare_forces(Simulation& simulation, const Scene& scene, double tolerance) {
-  const Assembly assembly = as_it_stands(simulation);
+  const Assembly assembly = as_it_stands(simulation, scene);
   Oracle reference(with_step(scene, simulation.preparation().dt), assembly);
   reference.start();
   const Field x = positions(simulation.state()), v = velocities(simulation.state());
@@ -205,7 +205,7 @@ void compare_forces(Simulation& simulation, const Scene& scene, double tolerance
 // Some steps on both sides from the present state. The oracle takes the simulation's velocities as those of t
 // = 0 and steps half a step back; the simulation then goes on from there.
 void compare_steps(Simulation& simulation, const Scene& scene, int steps) {
-  Oracle reference(with_step(scene, simulation.preparation().dt), as_it_stands(simulation));
+  Oracle reference(with_step(scene, simulation.preparation().dt), as_it_stands(simulation, scene));
   reference.start();
   State& state = simulation.state();
   const Field begin = reference.result().velocity_half;
@@ -230,7 +230,10 @@ void compare_steps(Simulation& simulation, const Scene& scene, int steps) {
 // From t = 0 on, closing included, as the case is.
 void compare_from_start(const Scene& scene, int steps) {
   Simulation simulation(scene, 1);
-  Oracle reference(with_step(scene, simulation.preparation().dt), simulation.preparation().assembly);
+  Assembly begin = assemble(scene);
+  const Field hung = simulation.look().positions();
+  for (std::size_t i = 0; i < hung.size(); ++i) begin.nodes[i].position = hung[i];
+  Oracle reference(with_step(scene, simulation.preparation().dt), begin);
   reference.start();
   simulation.advance_to(steps);
   reference.step(steps);

@@ -264,6 +264,8 @@ TEST_F(Program, CheckSaysWhatACaseWouldDo) {
   const auto rings = text.find("ring contact");
   ASSERT_NE(rings, std::string::npos);
   EXPECT_TRUE(has(text.substr(text.rfind('\n', rings), 12), "runs"));
+  EXPECT_TRUE(has(text, "MB while stepping")) << text;
+  EXPECT_TRUE(has(text, "expected time    about")) << text;
   EXPECT_TRUE(has(text, "the case is valid"));
   EXPECT_FALSE(fs::exists(path("results"))) << "a check writes nothing";
   ASSERT_EQ(run({"check", "tiny.toml", "--resolved"}), 0);

@@ -228,12 +228,12 @@ TEST(Mouth, SpreadIsTheGreatestDistance) {
 // radians from the other pole: 0 closes the bag.
 std::vector<Vec3> bag(const Net& net, double opening) {
   std::vector<Vec3> list;
-  for (const auto& place : NetPattern(net).places()) {
-    const double half = net.width / 2, u = place[0] / half, v = place[1] / half;
+  NetPattern(net).for_each_node([&](double x, double y) {
+    const double half = net.width / 2, u = x / half, v = y / half;
     const double out = std::max(std::abs(u), std::abs(v));  // 0 in the middle, 1 on the edge
     const double polar = out * (std::numbers::pi - opening), turn = std::atan2(v, u);
     list.emplace_back(std::sin(polar) * std::cos(turn), std::sin(polar) * std::sin(turn), std::cos(polar));
-  }
+  });
   return list;
 }
 
@@ -256,9 +256,9 @@ TEST(Mouth, ABagEnclosesWhatIsInside) {
 TEST(Mouth, AFlatNetEnclosesNothing) {
   const Net net = net_of(12, 12, 2);
   const NetSurface surface(net, 0);
-  std::vector<Vec3> x;
-  for (const auto& place : NetPattern(net).places()) x.emplace_back(place[0], place[1], 0);
-  for (const double z : {-1.0, -0.01, 0.01, 1.0}) EXPECT_FALSE(surface.encloses(x, {0.01, 0.02, z}));
+  std::vector<Vec3> points;
+  NetPattern(net).for_each_node([&](double x, double y) { points.emplace_back(x, y, 0); });
+  for (const double z : {-1.0, -0.01, 0.01, 1.0}) EXPECT_FALSE(surface.encloses(points, {0.01, 0.02, z}));
 }
 
 TEST(Mouth, ANetThatIsNotTheFirstPartCountsFromItsFirstNode) {

@@ -46,45 +46,88 @@ void print_stages(const Preparation& p) {
   }
 }
 
-// Bytes that the store takes, and what the frames will take on disk.
-void print_sizes(const Scene& scene, const Preparation& p) {
-  const double nodes = static_cast<double>(p.assembly.nodes.size());
-  const double elements = static_cast<double>(p.assembly.elements.size());
-  const double store =
-      nodes * (8 * 8 + sizeof(AssemblyNode)) + elements * (6 * 8 + 7 * 4 + sizeof(AssemblyElement));
+void print_output(const Scene& scene, const Preparation& p) {
   const double frames = scene.time.end / scene.output.frame_interval + 1;
-  const double frame = nodes * 9 * 8 + elements * (2 * 8 + 1 + 4);
-  std::printf("memory           %.1f MB\n", store / 1e6);
+  const double frame =
+      static_cast<double>(p.whole().nodes) * 9 * 8 + static_cast<double>(p.whole().elements) * (2 * 8 + 1);
   std::printf("output           %.0f frames, %.1f MB\n", frames, frames * frame / 1e6);
 }
 
-// Times a short stretch of each phase on copies that are thrown away.
-void print_expected_time(const Scene& scene, int threads) {
-  double expected = 0;
-  Simulation trial(scene, threads);
-  const Preparation& p = trial.preparation();
-  const auto measure = [&](Simulation& s) {
-    const std::int64_t steps = std::min<std::int64_t>(2000, std::max<std::int64_t>(p.end_step - s.step(), 1));
-    s.advance_to(s.step() + std::min<std::int64_t>(10, steps));
-    const double begin = now();
-    const std::int64_t first = s.step();
-    while (s.step() < first + steps && now() - begin < 0.5)
-      s.advance_to(std::min(s.step() + 50, first + steps));
-    return (now() - begin) / static_cast<double>(s.step() - first);
-  };
-  const std::int64_t first_phase = p.phases.size() > 1 ? std::min(p.closing_step, p.end_step) : p.end_step;
-  expected += measure(trial) * static_cast<double>(first_phase);
-  if (p.phases.size() > 1 && p.end_step > p.closing_step) {
-    Scene closing = scene;  // closing at once gives the second phase's work without the wait
-    closing.closing.time = 0;
-    Simulation second(closing, threads);
-    expected += measure(second) * static_cast<double>(p.end_step - p.closing_step);
+// What a stretch of each phase on copies that are thrown away has shown.
+struct Trial {
+  MemoryUse memory;     // of the larger phase
+  double seconds = 0;   // that the whole run takes
+  int threads = 0;      // 0: not even the start was possible
+  std::string problem;  // what stopped it
+};
+
+double seconds_per_step(Simulation& s) {
+  const std::int64_t end = s.preparation().end_step;
+  const std::int64_t steps = std::min<std::int64_t>(2000, std::max<std::int64_t>(end - s.step(), 1));
+  s.advance_to(s.step() + std::min<std::int64_t>(10, steps));
+  const double begin = now();
+  const std::int64_t first = s.step();
+  std::int64_t batch = 1;  // a step of a large net takes long, and so would fifty
+  for (; s.step() < first + steps && now() - begin < 0.5; batch = std::min<std::int64_t>(2 * batch, 50))
+    s.advance_to(std::min(s.step() + batch, first + steps));
+  return (now() - begin) / static_cast<double>(s.step() - first);
+}
+
+// Lets a simulation run in its first phase, which lasts `steps` steps of the whole run; `besides`: bytes of
+// models that the whole run has and this simulation lacks.
+void try_phase(Simulation& s, double steps, std::size_t besides, Trial& trial) {
+  trial.threads = s.threads();
+  MemoryUse use = s.memory();
+  use.model += besides;
+  if (use.total() > trial.memory.total()) trial.memory = use;
+  trial.seconds += seconds_per_step(s) * steps;
+}
+
+Trial try_out(const Scene& scene, int threads, Preparation p) {
+  Trial trial;
+  const bool two = p.phases.size() > 1;
+  const std::int64_t end = p.end_step, first = two ? std::min(p.closing_step, end) : end;
+  const std::size_t first_model = memory_of(p.phases.front().model);
+  try {
+    {
+      Simulation begin(scene, std::move(p), threads);
+      try_phase(begin, static_cast<double>(first), 0, trial);
+    }
+    if (two && end > first) {
+      Scene closing = scene;  // closing at once gives the second phase's work without the wait
+      closing.closing.time = 0;
+      Simulation rest(closing, threads);
+      try_phase(rest, static_cast<double>(end - first), first_model, trial);
+    }
+  } catch (const NumericalError& error) {  // a valid case whose motion goes wrong at once: worth knowing
+    trial.problem = error.what();
   }
-  std::printf("threads          %d\n", trial.threads());
+  return trial;
+}
+
+// The summed sizes of all arrays, and what is there besides for a while: `start` in all, or a frame.
+void print_memory(std::size_t start, std::size_t frame, const MemoryUse& use) {
+  const auto megabytes = [](std::size_t bytes) { return static_cast<double>(bytes) / 1e6; };
+  const std::size_t writing = use.total() + frame;
+  std::printf(
+      "memory           %.1f MB while stepping (model %.1f, state %.1f, pieces %.1f, contacts %.1f, looks "
+      "%.1f), %.1f MB while it %s, besides the program's own\n",
+      megabytes(use.total()), megabytes(use.model), megabytes(use.state), megabytes(use.pieces),
+      megabytes(use.contacts), megabytes(use.looks), megabytes(std::max(start, writing)),
+      start > writing ? "starts" : "writes a frame");
+}
+
+void print_expected_time(const Scene& scene, const Trial& trial) {
+  if (!trial.problem.empty()) {
+    std::printf("expected time    unknown, the trial of some thousand steps stopped: %s\n",
+                trial.problem.c_str());
+    return;
+  }
+  std::printf("threads          %d\n", trial.threads);
   std::printf(
       "expected time    about %s (h:)min:s, %.3g min per simulated second, from a trial of some thousand "
       "steps\n",
-      clock_text(expected).c_str(), expected / 60 / scene.time.end);
+      clock_text(trial.seconds).c_str(), trial.seconds / 60 / scene.time.end);
 }
 
 }  // namespace
@@ -95,17 +138,16 @@ int check(const CaseArguments& arguments, bool resolved) {
     std::cout << scene.resolved_toml;
     return 0;
   }
-  const Preparation p = prepare(scene);
+  Preparation p = prepare(scene);
   print_counts(scene, p);
   print_step(scene, p);
   print_stages(p);
-  print_sizes(scene, p);
-  try {
-    print_expected_time(scene, arguments.threads);
-  } catch (const NumericalError&
-               error) {  // a valid case whose motion goes wrong at once: worth knowing before the run
-    std::printf("expected time    unknown, the trial of some thousand steps stopped: %s\n", error.what());
-  }
+  print_output(scene, p);
+  const std::size_t start = memory_at_start(p);
+  const std::size_t frame = memory_of_frame(p.whole().nodes, p.whole().elements);
+  const Trial trial = try_out(scene, arguments.threads, std::move(p));
+  if (trial.threads > 0) print_memory(start, frame, trial.memory);
+  print_expected_time(scene, trial);
   std::printf("the case is valid\n");
   return 0;
 }

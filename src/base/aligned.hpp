@@ -8,6 +8,8 @@
 #include <type_traits>
 #include <vector>
 
+#include "base/large.hpp"
+
 namespace cinch {
 
 template <class T>
@@ -20,7 +22,9 @@ struct AlignedAllocator {
   template <class U>
   AlignedAllocator(const AlignedAllocator<U>&) {}
   T* allocate(std::size_t n) {
-    T* const data = static_cast<T*>(::operator new((n + spare) * sizeof(T), alignment));
+    const std::size_t bytes = (n + spare) * sizeof(T);
+    T* const data = static_cast<T*>(::operator new(bytes, alignment));
+    wish_huge_pages(data, bytes);
     std::fill(data + n, data + n + spare, T{});
     return data;
   }

@@ -131,12 +131,10 @@ h5::File create_file(const std::filesystem::path& directory) {
   return h5::File::create(directory / kResultFile);
 }
 
-void require_sizes(const Frame& frame, const ResultModel& model) {
-  const std::size_t nodes = model.node_mass.size(), elements = model.elements.size();
-  const std::size_t rings = model.rings.size();
-  const bool fits = frame.position.size() == nodes && frame.velocity.size() == nodes &&
-                    frame.contact_force.size() == nodes && frame.tension.size() == elements &&
-                    frame.strain.size() == elements && frame.active.size() == elements &&
+void require_sizes(const Frame& frame, NetSize net, std::size_t rings) {
+  const bool fits = frame.position.size() == net.nodes && frame.velocity.size() == net.nodes &&
+                    frame.contact_force.size() == net.nodes && frame.tension.size() == net.elements &&
+                    frame.strain.size() == net.elements && frame.active.size() == net.elements &&
                     frame.ring_center.size() == rings && frame.ring_normal.size() == rings &&
                     frame.ring_force.size() == rings;
   if (!fits) throw Error(ExitCode::internal, "recorder: a frame does not have the model's sizes");
@@ -146,7 +144,8 @@ void require_sizes(const Frame& frame, const ResultModel& model) {
 
 struct Recorder::Impl {
   std::filesystem::path directory;
-  ResultModel model;
+  ResultModel model;  // without its arrays of nodes and elements once they are written
+  NetSize size;
   h5::File file;
   StepTable steps;
   h5::Counter frame_count;
@@ -161,21 +160,23 @@ struct Recorder::Impl {
   Clock::time_point last_xdmf;
   bool finished = false;
 
-  Impl(const std::filesystem::path& folder, const ResultModel& description, bool compress);
+  Impl(const std::filesystem::path& folder, ResultModel description, bool compress);
+  void write_description();
   void write_waiting_probes();
   void commit();
   void write_events(const std::vector<Event>& events);
 };
 
-Recorder::Impl::Impl(const std::filesystem::path& folder, const ResultModel& description, bool compress)
+Recorder::Impl::Impl(const std::filesystem::path& folder, ResultModel description, bool compress)
     : directory(folder),
-      model(description),
+      model(std::move(description)),
+      size{model.node_mass.size(), model.elements.size()},
       file(create_file(folder)),
       steps(file),
       frame_count(file, kSteps, kFrameCount),
-      net(file, model.node_mass.size(), model.elements.size(), compress),
+      net(file, size.nodes, size.elements, compress),
       step_numbers(file, kStepNumbers, numbers()) {
-  write_model(file, model);
+  write_description();
   for (const std::string& term : Energies::names()) energy.emplace_back(file, kEnergy + term, numbers("J"));
   if (!model.rings.empty()) rings.emplace(file, model.rings.size(), compress);
   if (!model.probes.empty()) {
@@ -184,6 +185,14 @@ Recorder::Impl::Impl(const std::filesystem::path& folder, const ResultModel& des
     probe_rows.emplace(file, kProbes, kRowCount);
   }
   file.flush();
+}
+
+// What only the file needs is freed: a run steps with it for hours.
+void Recorder::Impl::write_description() {
+  write_model(file, model);
+  const auto free = [](auto& list) { list = std::decay_t<decltype(list)>(); };
+  free(model.elements), free(model.rest_length), free(model.element_radius);
+  free(model.element_part), free(model.node_mass);
 }
 
 void Recorder::Impl::write_waiting_probes() {
@@ -216,8 +225,8 @@ void Recorder::Impl::write_events(const std::vector<Event>& events) {
   file.write_texts(group + "/name", names);
 }
 
-Recorder::Recorder(const std::filesystem::path& directory, const ResultModel& model, bool compress)
-    : impl_(std::make_unique<Impl>(directory, model, compress)) {}
+Recorder::Recorder(const std::filesystem::path& directory, ResultModel model, bool compress)
+    : impl_(std::make_unique<Impl>(directory, std::move(model), compress)) {}
 Recorder::Recorder(Recorder&&) noexcept = default;
 Recorder& Recorder::operator=(Recorder&&) noexcept = default;
 
@@ -226,18 +235,18 @@ Recorder::~Recorder() {
   try {
     impl_->write_waiting_probes();
     impl_->commit();
-    write_xdmf(impl_->directory, impl_->model, impl_->times);
+    write_xdmf(impl_->directory, impl_->model, impl_->size, impl_->times);
   } catch (const std::exception&) {  // what was committed before stays readable
   }
 }
 
 void Recorder::frame(const Frame& frame) {
   Impl& run = *impl_;
-  require_sizes(frame, run.model);
+  require_sizes(frame, run.size, run.model.rings.size());
   if (run.finished) throw Error(ExitCode::internal, "recorder: a frame after the end");
   const auto k = static_cast<std::int64_t>(run.times.size());
-  run.steps.append(frame.time, k * static_cast<std::int64_t>(run.model.node_mass.size()),
-                   k * static_cast<std::int64_t>(run.model.elements.size()));
+  run.steps.append(frame.time, k * static_cast<std::int64_t>(run.size.nodes),
+                   k * static_cast<std::int64_t>(run.size.elements));
   run.net.append(frame);
   run.step_numbers.append(frame.step);
   const auto energies = frame.energy.values();
@@ -249,7 +258,7 @@ void Recorder::frame(const Frame& frame) {
 
   const auto now = Clock::now();
   if (k == 0 || now - run.last_xdmf > kXdmfInterval) {
-    write_xdmf(run.directory, run.model, run.times);
+    write_xdmf(run.directory, run.model, run.size, run.times);
     run.last_xdmf = now;
   }
 }
@@ -273,7 +282,7 @@ void Recorder::finish(const Summary& summary) {
   run.file.write_text(kSummary, json);
   run.commit();
   run.finished = true;
-  write_xdmf(run.directory, run.model, run.times);
+  write_xdmf(run.directory, run.model, run.size, run.times);
   replace_text_file(run.directory / kSummaryFile, json);
 }
 

@@ -17,7 +17,7 @@ class Recorder {
   /// Creates `directory` and DIR/run.vtkhdf; an old run's files of the same names are removed first (whether
   /// that is allowed is the caller's business). `compress`: shuffle + deflate 1, about a quarter less disk
   /// for much time.
-  Recorder(const std::filesystem::path& directory, const ResultModel& model, bool compress);
+  Recorder(const std::filesystem::path& directory, ResultModel model, bool compress);
   Recorder(Recorder&&) noexcept;
   Recorder& operator=(Recorder&&) noexcept;
   ~Recorder();  ///< without finish(): keeps frames and probes, writes no summary, reports no errors

@@ -117,8 +117,9 @@ void add_ball(Sphere& sphere, const ResultModel::Ball& ball) {
 
 }  // namespace
 
-string net_xdmf(const ResultModel& model, std::span<const double> times, const string& hdf5_name) {
-  const size_t nodes = model.node_mass.size(), elements = model.elements.size(), frames = times.size();
+string net_xdmf(const string& case_name, NetSize net, std::span<const double> times,
+                const string& hdf5_name) {
+  const size_t nodes = net.nodes, elements = net.elements, frames = times.size();
   const string file = escape_markup(hdf5_name), e = std::to_string(elements);
   const string topology =
       "<Topology TopologyType=\"Polyline\" NodesPerElement=\"2\" NumberOfElements=\"" + e + "\">" +
@@ -130,7 +131,7 @@ string net_xdmf(const ResultModel& model, std::span<const double> times, const s
   auto on_elements = [&](const char* path, Kind kind, size_t k) {
     return frame_item(file, path, kind, k, elements, frames, false);
   };
-  string text = kHead + series_head(model.case_name);
+  string text = kHead + series_head(case_name);
   for (size_t k = 0; k < frames; ++k) {
     text += grid_head("net", times[k]) + topology + geometry(nodal(kPoints, k));
     text += attribute("velocity", true, false, nodal(kVelocity, k));
@@ -173,10 +174,10 @@ string balls_xdmf(const ResultModel& model) {
          "</Grid>\n" + kTail;
 }
 
-void write_xdmf(const std::filesystem::path& directory, const ResultModel& model,
+void write_xdmf(const std::filesystem::path& directory, const ResultModel& model, NetSize net,
                 std::span<const double> times) {
   if (times.empty()) return;  // ParaView's reader takes an empty series for a broken file
-  replace_text_file(directory / kNetXdmfFile, net_xdmf(model, times, kResultFile));
+  replace_text_file(directory / kNetXdmfFile, net_xdmf(model.case_name, net, times, kResultFile));
   if (!model.rings.empty()) {
     replace_text_file(directory / kRingsXdmfFile, rings_xdmf(model, times, kResultFile));
   }

@@ -29,6 +29,7 @@ class BoxTree {
   /// `center`.
   void query(const Model& model, const ContactSet& set, const State& state, const Vec3& center,
              double distance, std::vector<Index>& found, std::int64_t& pairs_tested) const;
+  std::size_t memory() const;  ///< bytes, see memory.hpp
 
  private:
   std::vector<std::vector<Box>> levels_;  ///< levels_[0]: groups of elements; the last one: one box

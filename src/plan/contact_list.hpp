@@ -20,6 +20,7 @@ class ContactList {
   double margin() const { return margin_; }
   std::int64_t rebuilds() const { return rebuilds_; }
   std::int64_t pairs_tested() const { return pairs_tested_; }
+  std::size_t memory() const;  ///< bytes, see memory.hpp
 
   std::vector<kernel::Pair> pairs;  ///< those of the rings in order, then those of the balls; each by element
   std::vector<Index> ring_begin;    ///< ring + 1

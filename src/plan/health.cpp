@@ -17,7 +17,7 @@ void check_contacts(const Preparation& preparation, const State& state) {
     if (!(tally.stiffest > 1)) return;
     const Index stiffest = tally.stiffest_element;
     const std::string what = stiffest < 0 ? node_label(preparation.assembly, kernel::sphere_label(stiffest))
-                                          : element_label(preparation.assembly, stiffest);
+                                          : element_label(preparation, stiffest);
     char text[500];
     std::snprintf(
         text, sizeof text,

@@ -129,15 +129,13 @@ Look::Pull Look::pull(Index element) const {
 Vec3 Look::ring_center(Index ring) const {
   const AssemblyRing& r = assembly_->rings[at(ring)];
   if (r.element < 0) return position(r.node);
-  const AssemblyElement& host = assembly_->elements[at(r.element)];
-  return 0.5 * (position(host.a) + position(host.b));
+  return 0.5 * (position(r.host_a) + position(r.host_b));
 }
 
 Vec3 Look::ring_normal(Index ring) const {
   const AssemblyRing& r = assembly_->rings[at(ring)];
   if (r.element < 0) return r.normal;
-  const AssemblyElement& host = assembly_->elements[at(r.element)];
-  return (position(host.b) - position(host.a)).normalized();
+  return (position(r.host_b) - position(r.host_a)).normalized();
 }
 
 Vec3 Look::ring_force(Index ring) const {
@@ -147,7 +145,7 @@ Vec3 Look::ring_force(Index ring) const {
 }
 
 std::vector<Vec3> Look::positions() const {
-  std::vector<Vec3> all(assembly_->nodes.size());
+  std::vector<Vec3> all(at(assembly_->node_count()));
   for (std::size_t i = 0; i < all.size(); ++i) all[i] = position(static_cast<Index>(i));
   return all;
 }
@@ -159,7 +157,7 @@ std::vector<Vec3> Look::ring_centers() const {
 }
 
 std::vector<Vec3> Look::contact_forces() const {
-  std::vector<Vec3> all(assembly_->nodes.size(), Vec3::Zero());
+  std::vector<Vec3> all(at(assembly_->node_count()), Vec3::Zero());
   for (const kernel::Load& load : glance_.loads) all[at(load.node)] += Vec3(load.x, load.y, load.z);
   return all;
 }

@@ -25,6 +25,7 @@ class Look {
   std::int64_t step() const { return state_->step; }
   double time() const { return time_; }  ///< s
   const Assembly& assembly() const { return *assembly_; }
+  const Model& model() const { return *model_; }
 
   /// In the user's numbering; threads that are not there before closing lie on what carries them.
   Vec3 position(Index node) const;       ///< m
@@ -43,6 +44,7 @@ class Look {
 
   /// Stored and dissipated; what the simulation books is zero here.
   const Energies& energy() const { return energy_; }
+  std::size_t memory() const;  ///< bytes, see memory.hpp
 
  private:
   Vec3 speed(Index node) const;

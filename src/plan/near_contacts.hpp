@@ -41,6 +41,7 @@ class NearContacts {
   const kernel::Load* loads() const { return loads_.data(); }
   Index load_count() const { return load_count_; }
   std::int64_t evaluated() const { return evaluated_; }  ///< pairs so far
+  std::size_t memory() const;                            ///< bytes, see memory.hpp
 
  private:
   void find_near(double motion);

@@ -54,6 +54,7 @@ class Piece {
   void glance(State& state, double time, double motion, Glance& out);
   /// Appends the contact forces on its own nodes as last evaluated, in the user's numbers.
   void append_loads(std::vector<kernel::Load>& loads) const;
+  std::size_t memory() const;  ///< bytes, see memory.hpp
 
  private:
   void set_up(const Model& model, const std::vector<double>& node_share);

@@ -38,11 +38,12 @@ void check_step(const Scene& scene, const Preparation& p) {
 
 }  // namespace
 
-std::string element_label(const Assembly& assembly, Index user_element) {
-  const AssemblyElement& e = assembly.elements[static_cast<std::size_t>(user_element)];
-  const Part& part = assembly.parts[static_cast<std::size_t>(e.part)];
+std::string element_label(const Preparation& preparation, Index user_element) {
+  const auto e = static_cast<std::size_t>(user_element);
+  const Part& part = preparation.assembly.part_of(user_element);
   return "element " + std::to_string(user_element - part.first_element) + " of " + part.reference() +
-         " (nodes " + std::to_string(e.a) + " and " + std::to_string(e.b) + ")";
+         " (nodes " + std::to_string(preparation.whole().end_a[e]) + " and " +
+         std::to_string(preparation.whole().end_b[e]) + ")";
 }
 
 std::string node_label(const Assembly& assembly, Index node) {
@@ -71,7 +72,7 @@ Preparation prepare(const Scene& scene) {
   for (const Phase& phase : p.phases)
     if (phase.bound.step < p.stable_step) {
       p.stable_step = phase.bound.step;
-      p.limited_by = element_label(p.assembly, phase.bound.element);
+      p.limited_by = element_label(p, phase.bound.element);
       if (p.phases.size() > 1) p.limited_by += " while " + phase.name;
     }
   p.dt = scene.time.step > 0 ? scene.time.step : automatic_step(scene, p.stable_step);

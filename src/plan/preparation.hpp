@@ -26,6 +26,9 @@ struct Preparation {
   double dt = 0;           ///< s
   double stable_step = 0;  ///< s, over all phases
   std::string limited_by;  ///< the element that limits it, in words
+
+  /// All nodes and elements that the scene ever has.
+  const Model& whole() const { return phases.back().model; }
 };
 
 /// Throws CaseError for an impossible scene and for a given step above the stable bound (names the limiting
@@ -33,7 +36,7 @@ struct Preparation {
 Preparation prepare(const Scene& scene);
 
 /// "element 17 of thread.main (nodes 17 and 18)", by the user's number.
-std::string element_label(const Assembly& assembly, Index user_element);
+std::string element_label(const Preparation& preparation, Index user_element);
 /// "node 17 of thread.main" (the first part that has it).
 std::string node_label(const Assembly& assembly, Index node);
 

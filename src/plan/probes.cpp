@@ -53,19 +53,26 @@ Index node_of(const Assembly& assembly, const Subject& subject) {
   return subject.ring ? assembly.rings[static_cast<std::size_t>(subject.index)].node : subject.index;
 }
 
-// The elements whose greatest tension is meant: those of a part ("thread.NAME", "net.NAME",
-// "mechanism.NAME"), or those that meet at a node.
-std::vector<Index> elements_of(const Assembly& assembly, const Probe& probe) {
-  std::vector<Index> found;
+// The part that a probe is of ("thread.NAME", "net.NAME", "mechanism.NAME"), or null.
+const Part* part_of(const Assembly& assembly, const Probe& probe) {
   for (const Part& part : assembly.parts)
-    if (probe.of == part.reference())
-      for (Index e = 0; e < part.elements; ++e) found.push_back(part.first_element + e);
-  if (!found.empty()) return found;
-  const Index node = assembly.node_of(probe.of);
-  for (std::size_t e = 0; e < assembly.elements.size(); ++e)
-    if (assembly.elements[e].a == node || assembly.elements[e].b == node)
-      found.push_back(static_cast<Index>(e));
-  return found;
+    if (probe.of == part.reference() && part.elements > 0) return &part;
+  return nullptr;
+}
+
+// Greatest tension of the elements of a part, or of those that meet at a node.
+double greatest_tension(const Look& now, const Probe& probe) {
+  double greatest = 0;
+  if (const Part* part = part_of(now.assembly(), probe)) {
+    for (Index e = 0; e < part->elements; ++e)
+      greatest = std::max(greatest, now.pull(part->first_element + e).tension);
+    return greatest;
+  }
+  const Index node = now.assembly().node_of(probe.of);
+  for (std::size_t e = 0; e < now.model().end_a.size(); ++e)
+    if (now.model().end_a[e] == node || now.model().end_b[e] == node)
+      greatest = std::max(greatest, now.pull(static_cast<Index>(e)).tension);
+  return greatest;
 }
 
 void append(std::vector<double>& row, const Vec3& v) { row.insert(row.end(), {v.x(), v.y(), v.z()}); }
@@ -85,12 +92,9 @@ void append_value(std::vector<double>& row, const Probe& probe, const Look& now,
       row.insert(row.end(), terms.begin(), terms.end());
       return;
     }
-    case ProbeQuantity::tension: {
-      double greatest = 0;
-      for (const Index e : elements_of(assembly, probe)) greatest = std::max(greatest, now.pull(e).tension);
-      row.push_back(greatest);
+    case ProbeQuantity::tension:
+      row.push_back(greatest_tension(now, probe));
       return;
-    }
     default:
       break;
   }
@@ -125,7 +129,7 @@ std::vector<ResultModel::ProbeColumn> probe_columns(const Scene& scene, const As
   for (const Probe& probe : scene.probes) {
     const ProbeQuantity q = probe.quantity;
     if (q == ProbeQuantity::tension) {
-      elements_of(assembly, probe);
+      if (part_of(assembly, probe) == nullptr) assembly.node_of(probe.of);  // throws where there is none
     } else if (q != ProbeQuantity::mouth_area && q != ProbeQuantity::mouth_spread &&
                q != ProbeQuantity::energy) {
       const Subject subject = subject_of(assembly, probe);
@@ -138,6 +142,12 @@ std::vector<ResultModel::ProbeColumn> probe_columns(const Scene& scene, const As
       columns.push_back({probe.name + suffix, quantity_name(q), probe.of, quantity_unit(q)});
   }
   return columns;
+}
+
+bool needs_node_start(const Scene& scene) {
+  return std::any_of(scene.probes.begin(), scene.probes.end(), [](const Probe& probe) {
+    return probe.quantity == ProbeQuantity::displacement && !probe.of.starts_with("ring.");
+  });
 }
 
 std::vector<double> probe_values(const Scene& scene, const Look& now, const Energies& energy,

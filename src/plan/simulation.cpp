@@ -74,15 +74,14 @@ static int available_threads(int wanted) {
   return given;
 }
 
-Simulation::Simulation(const Scene& scene, int threads) : scene_(scene), preparation_(prepare(scene)) {
+Simulation::Simulation(const Scene& scene, int threads) : Simulation(scene, prepare(scene), threads) {}
+
+Simulation::Simulation(const Scene& scene, Preparation preparation, int threads)
+    : scene_(scene), preparation_(std::move(preparation)) {
   omp_set_dynamic(0);
-  const auto elements = static_cast<Index>(preparation_.assembly.elements.size());
-  threads_ = available_threads(threads > 0 ? threads : choose_threads(elements, omp_get_max_threads()));
+  threads_ = available_threads(
+      threads > 0 ? threads : choose_threads(preparation_.whole().elements, omp_get_max_threads()));
   probe_columns_ = cinch::probe_columns(scene_, preparation_.assembly);
-  for (const Net& net : scene_.nets)
-    for (const Part& part : preparation_.assembly.parts)
-      if (part.kind == PartKind::net && part.name == net.name)
-        surfaces_.emplace_back(net, part.nodes.front());
   enclosed_.assign(preparation_.assembly.balls.size(), false);
   find_start();
   start();
@@ -98,15 +97,16 @@ void Simulation::enter_phase(std::size_t number) {
   phase_ = number;
   const Phase& p = phase();
   std::vector<double> share;
-  if (p.plan.contacts()) share = node_share(p.model, p.bound, preparation_.dt);
+  if (p.plan.contacts()) share = node_share(p.model, preparation_.dt);
   stepper_ = std::make_unique<Stepper>(p.model, p.plan, std::move(share), threads_);
 }
 
 // Central differences begin with velocities half a step back: v(-1/2) = v(0) - dt/2 a(0).
 void Simulation::start() {
+  state_ = initial_state(model(), preparation_.assembly);
+  preparation_.assembly.forget_start();
   enter_phase(0);
   const Model& m = model();
-  state_ = initial_state(m, preparation_.assembly);
   double work = 0;
   if (preparation_.closing_step == 0) {
     const double before = kinetic_energy(m, state_);
@@ -126,12 +126,22 @@ void Simulation::start() {
   drop_negative_zeros(state_);
   remember();
   ledger_.open(begin, m, state_, work);
-  node_start_ = look().positions();
-  ring_start_ = look_.ring_centers();
+  ring_start_ = look().ring_centers();
+  if (needs_node_start(scene_)) node_start_ = look_.positions();
   // rings along one straight edge are no mouth: their hull has next to no area
   const double spread = mouth_spread(ring_start_);
   has_mouth_ = mouth_area(ring_start_) > 0.01 * spread * spread;
+  if (has_mouth_) find_surfaces();
   note_events(look_);
+}
+
+// The nets that can enclose a target when their mouth closes.
+void Simulation::find_surfaces() {
+  if (enclosed_.empty() || preparation_.closing_step < 0) return;
+  for (const Net& net : scene_.nets)
+    for (const Part& part : preparation_.assembly.parts)
+      if (part.kind == PartKind::net && part.name == net.name)
+        surfaces_.emplace_back(net, part.nodes.front());
 }
 
 void Simulation::close() {
@@ -192,23 +202,25 @@ const Look& Simulation::look() {
 }
 
 Frame Simulation::frame(const Look& now) {
-  const Assembly& assembly = preparation_.assembly;
+  const Index nodes = preparation_.assembly.node_count(), elements = preparation_.whole().elements;
   Frame out;
   out.time = now.time();
   out.step = now.step();
   out.energy = ledger_.energies(now.energy());
   out.position = now.positions();
   out.contact_force = now.contact_forces();
-  for (Index i = 0; i < static_cast<Index>(assembly.nodes.size()); ++i)
-    out.velocity.push_back(now.velocity(i));
-  for (Index e = 0; e < static_cast<Index>(assembly.elements.size()); ++e) {
+  out.velocity.reserve(at(nodes));
+  for (Index i = 0; i < nodes; ++i) out.velocity.push_back(now.velocity(i));
+  for (auto* field : {&out.tension, &out.strain}) field->reserve(at(elements));
+  out.active.reserve(at(elements));
+  for (Index e = 0; e < elements; ++e) {
     const Look::Pull pull = now.pull(e);
     out.tension.push_back(pull.tension);
     out.strain.push_back(pull.strain);
     out.active.push_back(now.present(e));
   }
   out.ring_center = now.ring_centers();
-  for (Index r = 0; r < static_cast<Index>(assembly.rings.size()); ++r) {
+  for (Index r = 0; r < static_cast<Index>(out.ring_center.size()); ++r) {
     out.ring_normal.push_back(now.ring_normal(r));
     out.ring_force.push_back(now.ring_force(r));
   }

@@ -5,6 +5,7 @@
 #include "base/result.hpp"
 #include "plan/closing.hpp"
 #include "plan/ledger.hpp"
+#include "plan/memory.hpp"
 #include "plan/preparation.hpp"
 #include "scene/mouth.hpp"
 
@@ -15,6 +16,8 @@ class Simulation {
   /// Builds everything and stands at t = 0. `threads` 0: as many as pay for this scene (see choose_threads).
   /// Throws CaseError for an impossible scene, NumericalError when no static equilibrium is found.
   explicit Simulation(const Scene& scene, int threads = 0);
+  /// From what prepare(scene) has given.
+  Simulation(const Scene& scene, Preparation preparation, int threads);
 
   /// Advances to `step`; closing happens on the way. Throws NumericalError (node, ring or element, time,
   /// likely cause) and leaves the state of the step that went wrong.
@@ -34,9 +37,11 @@ class Simulation {
   ResultModel result_model() const;
   /// All but wall time and status.
   Summary summary();
+  MemoryUse memory() const;
 
   std::int64_t step() const { return state_.step; }
   double time() const { return static_cast<double>(state_.step) * preparation_.dt; }
+  /// Its assembly knows all parts by name, but no longer how nodes and elements began.
   const Preparation& preparation() const { return preparation_; }
   const State& state() const { return state_; }
   State& state() { return state_; }
@@ -50,6 +55,7 @@ class Simulation {
   const Phase& phase() const { return preparation_.phases[phase_]; }
   void find_start();
   void start();
+  void find_surfaces();
   void enter_phase(std::size_t phase);
   void close();
   void check_health();
@@ -67,7 +73,8 @@ class Simulation {
   Look look_;
   Ledger ledger_;
   std::vector<ResultModel::ProbeColumn> probe_columns_;
-  std::vector<Vec3> ring_start_, node_start_;  ///< where rings and nodes were at t = 0, for displacements
+  std::vector<Vec3> ring_start_;  ///< where rings were at t = 0
+  std::vector<Vec3> node_start_;  ///< where nodes were at t = 0, if a probe asks for a node's displacement
   std::vector<NetSurface> surfaces_;
   std::array<double, stage_count> seconds_{};  ///< of phases that are over
   double greatest_mouth_ = 0;

@@ -17,15 +17,14 @@
 namespace cinch {
 
 struct StableStep {
-  double step = 0;                           ///< s; infinite for a scene without elements
-  Index element = -1;                        ///< number of the element that limits
-  std::vector<double> element_a, element_b;  ///< coefficients: usage(dt) = a dt^2 + b dt
+  double step = 0;     ///< s; infinite for a scene without elements
+  Index element = -1;  ///< number of the element that limits
 };
 
 StableStep stable_step(const Model& model);
 
 /// By node: 1 / (m (1 - u)), u the largest usage at `step` of the elements at the node: what contacts have
 /// left, 1/kg. A fixed node has 0.
-std::vector<double> node_share(const Model& model, const StableStep& bound, double step);
+std::vector<double> node_share(const Model& model, double step);
 
 }  // namespace cinch

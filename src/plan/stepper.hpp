@@ -44,6 +44,7 @@ class Stepper {
   const StepPlan& plan() const { return plan_; }
   const ContactList& contacts() const { return contacts_; }
   int threads() const { return threads_; }
+  std::size_t memory_of_pieces() const;  ///< bytes, see memory.hpp
 
  private:
   enum class Verdict { go_on, renew_contacts, unhealthy };

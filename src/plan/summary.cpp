@@ -21,13 +21,16 @@ ResultModel Simulation::result_model() const {
   m.isa = kernels().isa;
   m.threads = threads_;
   m.time_step = preparation_.dt;
-  for (const AssemblyElement& e : assembly.elements) {
-    m.elements.push_back({e.a, e.b});
-    m.rest_length.push_back(e.rest_length);
-    m.element_radius.push_back(e.radius);
-    m.element_part.push_back(e.part);
-  }
-  for (const AssemblyNode& node : assembly.nodes) m.node_mass.push_back(node.mass);
+  const Model& whole = preparation_.whole();
+  m.elements.reserve(whole.end_a.size());
+  for (std::size_t e = 0; e < whole.end_a.size(); ++e) m.elements.push_back({whole.end_a[e], whole.end_b[e]});
+  m.rest_length.assign(whole.rest_length.begin(), whole.rest_length.end());
+  m.element_radius.assign(whole.radius.begin(), whole.radius.end());
+  m.element_part.resize(whole.end_a.size());
+  for (std::size_t p = 0; p < assembly.parts.size(); ++p)
+    std::fill_n(m.element_part.begin() + assembly.parts[p].first_element, assembly.parts[p].elements,
+                static_cast<int>(p));
+  m.node_mass.assign(whole.mass.begin(), whole.mass.end());
   for (const Part& part : assembly.parts) m.parts.push_back({kind_name(part.kind), part.name, part.closing});
   for (const AssemblyRing& ring : assembly.rings)
     m.rings.push_back({ring.name, ring.radius, ring.wire_radius});
@@ -67,8 +70,8 @@ Summary Simulation::summary() {
   s.steps = state_.step;
   s.time_step = preparation_.dt;
   s.simulated_seconds = time();
-  s.nodes = static_cast<Index>(assembly.nodes.size());
-  s.elements = static_cast<Index>(assembly.elements.size());
+  s.nodes = preparation_.whole().nodes;
+  s.elements = preparation_.whole().elements;
   s.rings = static_cast<Index>(assembly.rings.size());
   s.stable_step = preparation_.stable_step;
   s.stable_step_limited_by = preparation_.limited_by;

@@ -3,12 +3,16 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <numeric>
 
 #include "base/error.hpp"
 #include "scene/net_pattern.hpp"
 
 namespace cinch {
 namespace {
+
+/// Slots of runs are numbered, and an element may bring eight void ones: see topology.cpp.
+constexpr std::int64_t most_elements = std::numeric_limits<Index>::max() / 9;
 
 [[noreturn]] void fail(const SourceRef& source, const std::string& message) {
   throw CaseError((source.text.empty() ? std::string() : source.text + ": ") + "error: " + message);
@@ -40,6 +44,7 @@ class Assembler {
   explicit Assembler(const Scene& scene) : scene_(scene) {}
 
   Assembly build() {
+    reserve();
     for (const Net& net : scene_.nets) add_net(net);
     for (const Mechanism& mechanism : scene_.mechanisms) add_towing(mechanism);
     for (const Thread& thread : scene_.threads)
@@ -64,6 +69,25 @@ class Assembler {
   Index node_count() const { return static_cast<Index>(out_.nodes.size()); }
   Index element_count() const { return static_cast<Index>(out_.elements.size()); }
   AssemblyNode& node(Index i) { return out_.nodes[static_cast<std::size_t>(i)]; }
+
+  // Room for all, so that nothing is moved while it grows. No thread shares so many nodes that it matters.
+  void reserve() {
+    std::int64_t elements = 0;
+    for (const Net& net : scene_.nets) elements += NetPattern::elements(net);
+    for (const Mechanism& mechanism : scene_.mechanisms) elements += mechanism.towing_elements;
+    for (const Thread& thread : scene_.threads) elements += thread.elements;
+    if (elements > most_elements)
+      fail({}, "the scene has " + std::to_string(elements) + " elements, allowed: at most " +
+                   std::to_string(most_elements));
+    std::size_t nodes = scene_.threads.size() + 2 * scene_.mechanisms.size();
+    for (const Net& net : scene_.nets) nodes += static_cast<std::size_t>(NetPattern(net).nodes());
+    for (const Mechanism& mechanism : scene_.mechanisms)
+      nodes += static_cast<std::size_t>(mechanism.towing_elements);
+    for (const Thread& thread : scene_.threads) nodes += static_cast<std::size_t>(thread.elements);
+    for (const Ring& ring : scene_.rings) nodes += ring.host == RingHost::node;
+    out_.nodes.reserve(nodes);
+    out_.elements.reserve(static_cast<std::size_t>(elements));
+  }
 
   Index add_node(const Vec3& position, const Vec3& velocity) {
     AssemblyNode fresh;
@@ -91,12 +115,14 @@ class Assembler {
     return found->second;
   }
 
-  // One spring-damper; half of its mass goes to each end (eq. (2)).
-  void add_element(Index a, Index b, double rest_length, double diameter, const Material& m, Index part) {
+  // A spring-damper with its ends left open: those of a part are all alike.
+  struct Kind {
+    AssemblyElement element;
+    double mass;
+  };
+  static Kind kind_of(double rest_length, double diameter, const Material& m, Index part) {
     const double mass = m.density * circle_area(diameter) * rest_length;
     AssemblyElement e;
-    e.a = a;
-    e.b = b;
     e.rest_length = rest_length;
     e.stiffness = m.youngs_modulus * circle_area(diameter) / rest_length;
     e.damping = m.damping_rule == DampingRule::element
@@ -105,15 +131,17 @@ class Assembler {
     e.radius = diameter / 2;
     e.compliance = compliance(m.youngs_modulus, m.poissons_ratio);
     e.part = part;
-    out_.elements.push_back(e);
-    out_.parts[static_cast<std::size_t>(part)].elements += 1;
-    node(a).mass += mass / 2;
-    node(b).mass += mass / 2;
-    latest_.resize(out_.nodes.size(), -1);
-    for (const Index end : {a, b}) {
-      earlier_.push_back(latest_[static_cast<std::size_t>(end)]);
-      latest_[static_cast<std::size_t>(end)] = static_cast<Index>(earlier_.size()) - 1;
-    }
+    return {e, mass};
+  }
+
+  // Half of an element's mass goes to each end (eq. (2)).
+  void add_element(Index a, Index b, const Kind& kind) {
+    AssemblyElement& e = out_.elements.emplace_back(kind.element);
+    e.a = a;
+    e.b = b;
+    out_.parts[static_cast<std::size_t>(e.part)].elements += 1;
+    node(a).mass += kind.mass / 2;
+    node(b).mass += kind.mass / 2;
   }
 
   void add_sphere(const Sphere& sphere, Index at, const std::string& name, Index part) {
@@ -142,14 +170,14 @@ class Assembler {
     out_.net_shapes[net.name] = net;
     const Index part = begin_part(PartKind::net, net.name);
     const Index first = node_count();
-    for (const auto& place : pattern.places())
-      add_node(net.center + net.stowed_factor * (place[0] * net.x_axis + place[1] * net.y_axis),
-               net.velocity);
-    for (Index i = first; i < node_count(); ++i) out_.parts.back().nodes.push_back(i);
-    const double rest = net.mesh / net.elements_per_side;
-    const Material& m = material(net.material, net.source);
-    for (const auto& ends : pattern.elements())
-      add_element(first + ends[0], first + ends[1], rest, net.diameter, m, part);
+    pattern.for_each_node([&](double x, double y) {
+      add_node(net.center + net.stowed_factor * (x * net.x_axis + y * net.y_axis), net.velocity);
+    });
+    out_.parts.back().nodes.resize(static_cast<std::size_t>(pattern.nodes()));
+    std::iota(out_.parts.back().nodes.begin(), out_.parts.back().nodes.end(), first);
+    const Kind element =
+        kind_of(net.mesh / net.elements_per_side, net.diameter, material(net.material, net.source), part);
+    pattern.for_each_element([&](Index a, Index b) { add_element(first + a, first + b, element); });
     for (const auto& [place, spec] : net.nodes) {
       const Index at = pattern.place(place);
       if (at < 0) fail(spec.source, "net '" + net.name + "' has no node '" + place + "'");
@@ -164,13 +192,14 @@ class Assembler {
     const Vec3 from_center = node(corner).position - net.center;
     const Vec3 outward = from_center.normalized();
     const Index part = begin_part(PartKind::mechanism, mechanism.name);
-    const Material& m = material(mechanism.towing_material, mechanism.source);
     const double rest = mechanism.towing_length / mechanism.towing_elements;
+    const Kind element =
+        kind_of(rest, mechanism.towing_diameter, material(mechanism.towing_material, mechanism.source), part);
     std::vector<Index> nodes{corner};
     for (int k = 1; k <= mechanism.towing_elements; ++k) {
       const Vec3 at = node(corner).position + k * rest * mechanism.initial_stretch * outward;
       nodes.push_back(add_node(at, net.velocity));
-      add_element(nodes[nodes.size() - 2], nodes.back(), rest, mechanism.towing_diameter, m, part);
+      add_element(nodes[nodes.size() - 2], nodes.back(), element);
     }
     node(nodes.back()).velocity = mechanism.launch_velocity;
     node(nodes.back()).mass += mechanism.launcher_mass;
@@ -210,12 +239,12 @@ class Assembler {
       const bool shared = spec != nullptr && !spec->on.empty();
       nodes.push_back(shared ? node_of(spec->on, spec->source) : add(k));
     }
-    const Material& m = material(thread.material, thread.source);
+    const Kind element = kind_of(rest, thread.diameter, material(thread.material, thread.source), part);
     for (int k = 0; k < thread.elements; ++k) {
       const Index a = nodes[static_cast<std::size_t>(k)], b = nodes[static_cast<std::size_t>(k) + 1];
       if (a == b)
         fail(thread.source, "thread '" + thread.name + "' has an element with one and the same node");
-      add_element(a, b, rest, thread.diameter, m, part);
+      add_element(a, b, element);
     }
     for (int k = 0; k <= thread.elements; ++k)
       if (const NodeSpec* spec = spec_of(thread, k))
@@ -298,8 +327,20 @@ class Assembler {
     fail(source, "'" + reference + "' is no mechanism, thread or net edge that a thread can be laid along");
   }
 
+  // The lists of incident elements grow when somebody asks: most scenes need them for few parts or none.
+  void list_incident_elements() {
+    latest_.resize(out_.nodes.size(), -1);
+    for (Index half = static_cast<Index>(earlier_.size()); half < 2 * element_count(); ++half) {
+      const AssemblyElement& e = out_.elements[static_cast<std::size_t>(half / 2)];
+      Index& latest = latest_[static_cast<std::size_t>(half % 2 == 0 ? e.a : e.b)];
+      earlier_.push_back(latest);
+      latest = half;
+    }
+  }
+
   // The first element that joins a and b; walks those at a, the latest first.
-  Index element_between(Index a, Index b) const {
+  Index element_between(Index a, Index b) {
+    list_incident_elements();
     Index found = -1;
     for (Index half = latest_[static_cast<std::size_t>(a)]; half >= 0;
          half = earlier_[static_cast<std::size_t>(half)]) {
@@ -398,9 +439,11 @@ class Assembler {
       const AssemblyElement& host = out_.elements[static_cast<std::size_t>(r.element)];
       node(host.a).mass += ring.mass / 2;  // eq. (2): n_r m_r / 2
       node(host.b).mass += ring.mass / 2;
+      r.host_a = host.a;
+      r.host_b = host.b;
       if (const Reference at(ring.element_of); at.kind == "thread") host_thread = at.name;
     } else {
-      r.node = find_part(PartKind::ring, ring.name)->nodes.front();
+      r.node = r.host_a = r.host_b = find_part(PartKind::ring, ring.name)->nodes.front();
     }
     const auto listed = [&](const std::string& name) {
       return ring.threads.empty() || std::count(ring.threads.begin(), ring.threads.end(), name) > 0 ||
@@ -512,6 +555,17 @@ Index Assembly::node_in_net(const Part& part, const std::string& place) const {
   if (shape == net_shapes.end()) return -1;
   const Index at = NetPattern(shape->second).place(place);
   return at < 0 ? -1 : part.nodes.front() + at;
+}
+
+const Part& Assembly::part_of(Index element) const {
+  return *std::find_if(parts.begin(), parts.end(), [&](const Part& part) {
+    return element >= part.first_element && element < part.first_element + part.elements;
+  });
+}
+
+void Assembly::forget_start() {
+  nodes = decltype(nodes)();  // = {} would keep the room
+  elements = decltype(elements)();
 }
 
 Assembly assemble(const Scene& scene) { return Assembler(scene).build(); }

@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "base/large.hpp"
 #include "scene/scene.hpp"
 
 namespace cinch {
@@ -66,13 +67,14 @@ struct Recoil {
 
 struct AssemblyRing {
   std::string name;
-  Index element = -1;           ///< host element, or -1
-  Index node = -1;              ///< own node, or -1
-  Vec3 normal = Vec3::UnitX();  ///< of a ring with a node of its own
-  double radius = 0;            ///< R_B, of the wire's centre line, m
-  double wire_radius = 0;       ///< r_B, m
-  double compliance = 0;        ///< h of eq. (8), 1/Pa
-  std::vector<Index> parts;     ///< the threads it can touch
+  Index element = -1;              ///< host element, or -1
+  Index node = -1;                 ///< own node, or -1
+  Vec3 normal = Vec3::UnitX();     ///< of a ring with a node of its own
+  double radius = 0;               ///< R_B, of the wire's centre line, m
+  double wire_radius = 0;          ///< r_B, m
+  double compliance = 0;           ///< h of eq. (8), 1/Pa
+  std::vector<Index> parts;        ///< the threads it can touch
+  Index host_a = -1, host_b = -1;  ///< end nodes of the host element, or twice its own node
 };
 
 struct AssemblyBall {
@@ -102,8 +104,8 @@ struct NamedNode {
 
 struct Assembly {
   std::vector<Part> parts;
-  std::vector<AssemblyNode> nodes;
-  std::vector<AssemblyElement> elements;
+  LargeVector<AssemblyNode> nodes;              ///< as they begin; see forget_start()
+  LargeVector<AssemblyElement> elements;        ///< what models are built from; see forget_start()
   Index nodes_before = 0, elements_before = 0;  ///< what exists before the closing time
   std::vector<Lay> lays;                        ///< one for each node from nodes_before on, in order
   std::vector<Recoil> recoils;                  ///< launchers, where not zero
@@ -113,7 +115,13 @@ struct Assembly {
   std::vector<NamedNode> named;
   std::map<std::string, Net> net_shapes;  ///< what places such as "top_left" mean
 
-  bool has_closing() const { return nodes_before < static_cast<Index>(nodes.size()); }
+  bool has_closing() const { return !lays.empty(); }
+  Index node_count() const { return nodes_before + static_cast<Index>(lays.size()); }
+  /// The part that an element belongs to.
+  const Part& part_of(Index element) const;
+  /// Frees nodes and elements, which models and state hold from the start on: two fifths of the memory of a
+  /// large net. What has a name stays.
+  void forget_start();
   /// Number of a node by its part reference ("thread.main.start", "net.main.knot.3.4"); throws CaseError when
   /// there is none.
   Index node_of(const std::string& reference) const;

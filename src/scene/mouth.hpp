@@ -2,6 +2,7 @@
 #pragma once
 #include <vector>
 
+#include "base/bytes.hpp"
 #include "scene/assembly.hpp"
 
 namespace cinch {
@@ -18,6 +19,7 @@ class NetSurface {
   NetSurface(const Net& net, Index first_node);
   /// True when the winding number of the surface about `point` is not zero.
   bool encloses(const std::vector<Vec3>& positions, const Vec3& point) const;
+  std::size_t memory() const { return bytes_of(triangles_, edge_); }
 
  private:
   std::vector<std::array<Index, 3>> triangles_;  ///< of the net

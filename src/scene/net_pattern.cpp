@@ -22,34 +22,9 @@ Index NetPattern::vertical(Index i, Index j, Index k) const {
   return j * row_stride_ + (columns_ + 1) + sub_inner() * columns_ + (k - 1) * (columns_ + 1) + i;
 }
 
-std::vector<std::array<double, 2>> NetPattern::places() const {
-  std::vector<std::array<double, 2>> at(static_cast<std::size_t>(nodes()));
-  const double step = mesh_ / sub_;
-  const auto put = [&](Index node, double column_steps, double row_steps) {
-    at[static_cast<std::size_t>(node)] = {(column_steps - 0.5 * columns_ * sub_) * step,
-                                          (row_steps - 0.5 * rows_ * sub_) * step};
-  };
-  for (Index j = 0; j <= rows_; ++j) {
-    for (Index i = 0; i < columns_; ++i)
-      for (Index k = 0; k <= sub_; ++k) put(horizontal(i, j, k), i * sub_ + k, j * sub_);
-    if (j == rows_) break;
-    for (Index i = 0; i <= columns_; ++i)
-      for (Index k = 0; k <= sub_; ++k) put(vertical(i, j, k), i * sub_, j * sub_ + k);
-  }
-  return at;
-}
-
-std::vector<std::array<Index, 2>> NetPattern::elements() const {
-  std::vector<std::array<Index, 2>> ends;
-  ends.reserve(static_cast<std::size_t>(sub_ * (columns_ * (rows_ + 1) + rows_ * (columns_ + 1))));
-  for (Index j = 0; j <= rows_; ++j) {
-    for (Index k = 0; k < sub_; ++k)
-      for (Index i = 0; i < columns_; ++i) ends.push_back({horizontal(i, j, k), horizontal(i, j, k + 1)});
-    if (j == rows_) break;
-    for (Index k = 0; k < sub_; ++k)
-      for (Index i = 0; i <= columns_; ++i) ends.push_back({vertical(i, j, k), vertical(i, j, k + 1)});
-  }
-  return ends;
+std::int64_t NetPattern::elements(const Net& net) {
+  const std::int64_t columns = net.columns(), rows = net.rows();
+  return net.elements_per_side * (columns * (rows + 1) + rows * (columns + 1));
 }
 
 std::vector<Index> NetPattern::edge(const std::string& name) const {

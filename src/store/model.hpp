@@ -27,13 +27,13 @@ struct Model {
   Index nodes = 0, elements = 0;
 
   // field                             meaning                                               unit   shape
-  std::vector<double> mass;         // lumped mass, eq. (2)                                kg     node
-  std::vector<double> stiffness;    // k                                                   N/m    element
-  std::vector<double> damping;      // c                                                   N s/m  element
-  std::vector<double> rest_length;  // l0                                                  m      element
-  std::vector<Index> end_a, end_b;  // end nodes                                                  element
-  std::vector<double> radius;       // of the thread                                       m      element
-  std::vector<double> compliance;   // h of eq. (8)                                        1/Pa   element
+  LargeVector<double> mass;         // lumped mass, eq. (2)                                kg     node
+  LargeVector<double> stiffness;    // k                                                   N/m    element
+  LargeVector<double> damping;      // c                                                   N s/m  element
+  LargeVector<double> rest_length;  // l0                                                  m      element
+  LargeVector<Index> end_a, end_b;  // end nodes                                                  element
+  LargeVector<double> radius;       // of the thread                                       m      element
+  LargeVector<double> compliance;   // h of eq. (8)                                        1/Pa   element
   std::vector<kernel::Constraint> constraints;  // fixed and guided nodes, ascending
 
   Topology topology;  // the elements as runs and links

@@ -7,6 +7,7 @@
 #pragma once
 #include <vector>
 
+#include "base/bytes.hpp"
 #include "store/topology.hpp"
 
 namespace cinch {
@@ -24,6 +25,7 @@ struct Numbering {
   /// Local number of a node, -1 where it is not here.
   Index local(Index global_node) const;
   Index ghosts() const;  ///< how many
+  std::size_t memory() const { return bytes_of(global, layer, ranges_); }
 
   /// All nodes, each with its own number.
   static Numbering all(Index nodes);

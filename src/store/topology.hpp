@@ -1,9 +1,11 @@
 // Cuts any graph of elements into runs: stretches whose end nodes rise by one, which load contiguously. What
 // is too short for a run is a link.
 #pragma once
+#include <span>
 #include <vector>
 
 #include "base/index.hpp"
+#include "base/large.hpp"
 
 namespace cinch {
 
@@ -23,11 +25,11 @@ struct LinkEnds {
 
 struct Topology {
   std::vector<Run> runs;            ///< by offset, then by node; slots rise without gaps
-  std::vector<Index> slot_element;  ///< slot: the user's number of its element, -1 where void
+  LargeVector<Index> slot_element;  ///< slot: the user's number of its element, -1 where void
   std::vector<LinkEnds> links;      ///< by first node
 };
 
 /// Every element lies in one run or is one link; its end a is the lower of its two nodes.
-Topology cut_runs(const std::vector<Index>& end_a, const std::vector<Index>& end_b);
+Topology cut_runs(std::span<const Index> end_a, std::span<const Index> end_b);
 
 }  // namespace cinch

@@ -32,7 +32,7 @@ inline Graph net_graph(int columns, int rows, int sub) {
   Graph g;
   g.name = "net " + std::to_string(columns) + "x" + std::to_string(rows) + "x" + std::to_string(sub);
   g.nodes = pattern.nodes();
-  for (const auto& ends : pattern.elements()) g.join(ends[0], ends[1]);
+  pattern.for_each_element([&](Index a, Index b) { g.join(a, b); });
   return g;
 }
 
