@@ -8,7 +8,7 @@
 // Nodes go block by block in ascending order: the elements whose lower end lies in the block write their
 // forces, then the block's nodes move. Every element is computed before one of its nodes moves, as its other
 // end lies further on. So a force need not outlive the way to its upper end, and the buffer stays in the
-// first-level cache (most forces of a chain, which its pass may keep in registers, are never written at all):
+// second-level cache (most forces of a chain, which its pass may keep in registers, are never written at all):
 // each run has a stretch of it as long as a block, with room before it for the last forces
 // of the block before (a ring as long as that way where the two ends lie far apart).
 #pragma once
@@ -46,7 +46,7 @@ inline Index group_count(const Run& run) {
   return (run.a + run.count - first_group_node(run) + kernel::lanes - 1) / kernel::lanes;
 }
 
-/// Cuts the nodes of `numbering` into blocks of at least `block_size` and lays out what each computes and
+/// Cuts the nodes of `numbering` into blocks of about `block_size` and lays out what each computes and
 /// gathers. The groups of a span find their parameters in the order of the runs, group by group.
 /// `constraints` are in local numbers, ascending.
 ForceReduction reduce_forces(const Topology& topology, const Numbering& numbering,
