@@ -8,9 +8,9 @@
 // Nodes go block by block in ascending order: the elements whose lower end lies in the block write their
 // forces, then the block's nodes move. Every element is computed before one of its nodes moves, as its other
 // end lies further on. So a force need not outlive the way to its upper end, and the buffer stays in the
-// second-level cache (most forces of a chain, which its pass may keep in registers, are never written at all):
-// each run has a stretch of it as long as a block, with room before it for the last forces
-// of the block before (a ring as long as that way where the two ends lie far apart).
+// second-level cache; most forces of a chain, which its pass may keep in registers, are never written at all.
+// Each run has a stretch of the buffer as long as a block, with room before it for the last forces of the
+// block before (a ring as long as that way where the two ends lie far apart).
 #pragma once
 #include <vector>
 
