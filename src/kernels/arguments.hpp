@@ -6,8 +6,8 @@
 namespace cinch::kernel {
 
 constexpr Index block_size = 2048;  ///< nodes that are computed and moved together, about
-constexpr Index grain = 128;       ///< nodes whose elements share one row of the ledger; whole groups
-constexpr Index lanes = 8;         ///< nodes and elements go in groups of so many, whatever the vector width
+constexpr Index grain = 128;        ///< nodes whose elements share one row of the ledger; whole groups
+constexpr Index lanes = 8;          ///< nodes and elements go in groups of so many, whatever the vector width
 constexpr Index ring_scratch = 3584;  ///< numbers that a batch of ring contacts works on
 constexpr Index max_terms = 3;        ///< element forces on a node that one pass adds up, in pairs (+, -)
 
