@@ -1,9 +1,10 @@
-// Times the stages of a step on few steps, as a reading of the clock costs as much as a small kernel, and
-// scales up.
+// Times the stages of a step on few steps, as a reading of the clock costs as much as a small kernel: what it
+// finds are shares, of a time that is measured over all steps.
 #pragma once
 #include <array>
 #include <chrono>
 #include <cstdint>
+#include <numeric>
 
 #include "plan/step_plan.hpp"
 
@@ -25,11 +26,11 @@ class StageClock {
     if (timed_) last_ = clock_seconds();
   }
 
-  /// Books the time since the last tick on a stage, scaled up to all stretches.
+  /// Books the time since the last tick on a stage.
   void tick(StageId stage) {
     if (!timed_) return;
     const double t = clock_seconds();
-    seconds_[static_cast<std::size_t>(stage)] += static_cast<double>(timed_every) * (t - last_);
+    seconds_[static_cast<std::size_t>(stage)] += t - last_;
     last_ = t;
   }
 
@@ -38,5 +39,13 @@ class StageClock {
   StageSeconds& seconds_;
   double last_ = 0;
 };
+
+/// `whole` seconds shared out as the sampled ones are.
+inline StageSeconds share_out(const StageSeconds& sampled, double whole) {
+  const double sum = std::accumulate(sampled.begin(), sampled.end(), 0.0);
+  StageSeconds seconds{};
+  for (std::size_t s = 0; s < stage_count && sum > 0; ++s) seconds[s] = whole * sampled[s] / sum;
+  return seconds;
+}
 
 }  // namespace cinch

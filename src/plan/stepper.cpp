@@ -74,7 +74,7 @@ void Stepper::renew_contacts(State& state) {
   motion_ = 0;
   contacts_valid_ = true;
   if (!pieces_.empty()) hand_out_contacts(state);
-  seconds_[static_cast<std::size_t>(StageId::broadphase)] += clock_seconds() - begin;
+  search_ += clock_seconds() - begin;
 }
 
 void Stepper::judge(double greatest, Progress& p) const {
@@ -97,7 +97,7 @@ Stepper::Progress Stepper::run_thread(State& state, std::int64_t steps, int thre
   const std::int64_t first = state.step;
   StageSeconds unread{};  // of the other threads
   while (from.done < steps && from.verdict == Verdict::go_on) {
-    StageClock clock(from.windows++, thread == 0 ? seconds_ : unread);
+    StageClock clock(from.windows++, thread == 0 ? sampled_ : unread);
     const int stretch = static_cast<int>(std::min<std::int64_t>(piece.levels(), steps - from.done));
     const double time = static_cast<double>(first + from.done) * plan_.dt;
     double greatest = move(piece, time, stretch, from.motion, clock);
@@ -134,7 +134,9 @@ void Stepper::advance(State& state, std::int64_t steps) {
   if (steps > 0 && pieces_.empty()) share_out(state);
   while (steps > 0 && healthy_) {
     if (plan_.contacts() && !contacts_valid_) renew_contacts(state);
+    const double begin = clock_seconds();
     const Progress reached = run(state, steps);
+    stepping_ += clock_seconds() - begin;
     state.step += reached.done;
     steps -= reached.done;
     windows_ = reached.windows;
@@ -142,6 +144,12 @@ void Stepper::advance(State& state, std::int64_t steps) {
     if (reached.verdict == Verdict::unhealthy) healthy_ = false;
     if (reached.verdict == Verdict::renew_contacts) contacts_valid_ = false;
   }
+}
+
+StageSeconds Stepper::seconds() const {
+  StageSeconds seconds = cinch::share_out(sampled_, stepping_);
+  seconds[static_cast<std::size_t>(StageId::broadphase)] += search_;
+  return seconds;
 }
 
 void Stepper::glance(State& state, Glance& out) {

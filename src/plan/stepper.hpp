@@ -37,8 +37,8 @@ class Stepper {
 
   /// False once a node's speed was above the limit.
   bool healthy() const { return healthy_; }
-  /// Seconds of each stage so far, scaled up from sampled steps.
-  const StageSeconds& seconds() const { return seconds_; }
+  /// Seconds of each stage so far; steps are shared out as sampled ones are.
+  StageSeconds seconds() const;
 
   const Model& model() const { return *model_; }
   const StepPlan& plan() const { return plan_; }
@@ -75,7 +75,8 @@ class Stepper {
   double motion_ = 0;
   bool contacts_valid_ = false, healthy_ = true;
   std::int64_t windows_ = 0;
-  StageSeconds seconds_{};
+  StageSeconds sampled_{};            ///< of the steps that were timed
+  double stepping_ = 0, search_ = 0;  ///< s: all steps; broadphase
 };
 
 }  // namespace cinch
