@@ -1,10 +1,13 @@
-// The pass that computes and moves a chain at once, where this machine has one, beside the two passes that it
-// stands for: the same bits in every number that they write.
+// Kernels that compute and move a chain, in two passes or, where the instruction set has it, in one: the same
+// bits in every number that they write as loops over single elements and nodes.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <random>
+#include <string>
 
 #include "base/aligned.hpp"
+#include "kernels/axial_law.hpp"
 #include "kernels/kernel_table.hpp"
 
 namespace {
@@ -68,31 +71,93 @@ kernel::Stretch stretch(Index terms) {
 }
 
 enum class Damping { none, unbooked, booked };  // without damping there is no power to book
-using Update = std::tuple<Damping, bool, bool, Index>;
-class ChainUpdate : public testing::TestWithParam<Update> {};
 
-TEST_P(ChainUpdate, HasTheBitsOfTheTwoPasses) {
-  const auto [damping, gravity, watch, terms] = GetParam();
-  const bool damped = damping != Damping::none, ledger = damping == Damping::booked;
-  const auto one_pass = kernels().update_chain[damped][ledger][gravity][watch];
-  if (one_pass == nullptr) GTEST_SKIP() << "instruction set " << kernels().isa << " has no such pass";
-  Chain a(damped), b(damped);
-  const kernel::Stretch gathered = stretch(terms);
-  const auto book = ledger ? kernel::Book::power : kernel::Book::nothing;
-  for (int step = 0; step < 3; ++step) {
-    kernels().axial_spans[damped][book](a.axial(), &span, 0, 1);
-    const double greatest = kernels().move_nodes[gravity][watch](a.node(), &gathered, 0, 1);
-    EXPECT_EQ(one_pass(b.axial(), b.node(), span, gathered), greatest);
-    EXPECT_EQ(watch, greatest > 0);
+struct Update {
+  Damping damping;
+  bool gravity, watch;
+  Index terms;
+
+  bool damped() const { return damping != Damping::none; }
+  bool ledger() const { return damping == Damping::booked; }
+};
+
+// The plain reference: element k joins nodes k and k + 1.
+void compute(Chain& c, bool ledger) {
+  const kernel::AxialArguments g = c.axial();
+  for (Index k = 0; k < nodes; ++k) {
+    const Index group = k / lanes, lane = k % lanes;
+    const double* const row = g.palette + 3 * lanes * g.parameter[group] + lane;
+    const plain::V3 r{g.x[k + 1] - g.x[k], g.y[k + 1] - g.y[k], g.z[k + 1] - g.z[k]};
+    const plain::V3 v{g.vx[k + 1] - g.vx[k], g.vy[k + 1] - g.vy[k], g.vz[k + 1] - g.vz[k]};
+    const plain::Axial item = plain::axial_law(dot(r, r), dot(r, v), row[0], row[lanes], row[2 * lanes]);
+    g.fx[Chain::plus + k] = item.per_length * r.x;
+    g.fy[Chain::plus + k] = item.per_length * r.y;
+    g.fz[Chain::plus + k] = item.per_length * r.z;
+    if (ledger) g.booked[(first + k) / kernel::grain * lanes + lane] += item.power;
   }
+}
+
+// Returns the greatest squared speed.
+double move(Chain& c, const kernel::Stretch& s, bool gravity) {
+  const kernel::NodeArguments g = c.node();
+  double greatest = 0;
+  for (Index k = 0; k < nodes; ++k) {
+    double squared = 0;
+    const auto axis = [&](double* x, double* v, const double* force, double pull) {
+      double sum = force[s.plus[0] + k] - force[s.minus[0] + k];
+      for (Index t = 1; t < s.terms; ++t) sum += force[s.plus[t] + k] - force[s.minus[t] + k];
+      const double gain = g.scale[k] * sum;
+      v[k] += gravity ? gain + pull : gain;
+      x[k] += g.dt * v[k];
+      squared += v[k] * v[k];
+    };
+    axis(g.x, g.vx, g.fx, g.gravity[0]);
+    axis(g.y, g.vy, g.fy, g.gravity[1]);
+    axis(g.z, g.vz, g.fz, g.gravity[2]);
+    greatest = std::max(greatest, squared);
+  }
+  return greatest;
+}
+
+// `forces_from`: the first node whose element's force must have been written.
+void expect_same(const Chain& a, const Chain& b, Index forces_from) {
   for (std::size_t f = 0; f < 6; ++f) EXPECT_EQ(a.field[f], b.field[f]) << "field " << f;
   EXPECT_EQ(a.booked, b.booked);
-  EXPECT_NE(a.booked == Chain(damped).booked, ledger);
   for (std::size_t axis = 0; axis < 3; ++axis)
-    for (Index k = nodes - lanes; k < nodes; ++k) {
+    for (Index k = forces_from; k < nodes; ++k) {
       const auto i = static_cast<std::size_t>(Chain::plus + k);
-      EXPECT_EQ(a.force[axis][i], b.force[axis][i]) << "what the node behind the chain takes";
+      EXPECT_EQ(a.force[axis][i], b.force[axis][i]) << "element " << k;
     }
+}
+
+class ChainUpdate : public testing::TestWithParam<std::tuple<Damping, bool, bool, Index>> {
+ protected:
+  Update update() const {
+    const auto [damping, gravity, watch, terms] = GetParam();
+    return {damping, gravity, watch, terms};
+  }
+};
+
+TEST_P(ChainUpdate, HasTheBitsOfSingleElementsAndNodes) {
+  const Update u = update();
+  const kernel::Stretch gathered = stretch(u.terms);
+  const auto spans =
+      kernels().axial_spans[u.damped()][u.ledger() ? kernel::Book::power : kernel::Book::nothing];
+  const auto move_nodes = kernels().move_nodes[u.gravity][u.watch];
+  const auto one_pass = kernels().update_chain[u.damped()][u.ledger()][u.gravity][u.watch];
+  EXPECT_EQ(one_pass != nullptr, std::string(kernels().isa) == "v4") << "the set that has it";
+  Chain single(u.damped()), two(u.damped()), one(u.damped());
+  for (int step = 0; step < 3; ++step) {
+    compute(single, u.ledger());
+    const double greatest = move(single, gathered, u.gravity), watched = u.watch ? greatest : 0;
+    spans(two.axial(), &span, 0, 1);
+    EXPECT_EQ(move_nodes(two.node(), &gathered, 0, 1), watched);
+    if (!one_pass) continue;
+    EXPECT_EQ(one_pass(one.axial(), one.node(), span, gathered), watched);
+  }
+  EXPECT_NE(single.booked == Chain(u.damped()).booked, u.ledger());
+  expect_same(single, two, 0);
+  if (one_pass) expect_same(single, one, nodes - lanes);  // what the node behind the chain takes
 }
 
 INSTANTIATE_TEST_SUITE_P(All, ChainUpdate,
