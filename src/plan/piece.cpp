@@ -256,11 +256,11 @@ double Piece::move(const Block& b, Index stretch_begin, bool watch) {
 
 double Piece::compute_and_move(const Block& b, StageClock& clock) {
   const kernel::Book::Sum book = step_book();
-  const bool fused = kernels_.update_chain[0][0][0][0] != nullptr, watch = plan_.contacts();
-  compute(b, fused ? b.neighbour_begin : b.span_end, book);
-  double greatest = fused ? update_neighbours(b, book, watch) : 0;
+  const bool watch = plan_.contacts();
+  compute(b, one_pass_ ? b.neighbour_begin : b.span_end, book);
+  double greatest = one_pass_ ? update_neighbours(b, book, watch) : 0;
   clock.tick(StageId::axial_forces);
-  greatest = std::max(greatest, move(b, fused ? b.chain_stretch_end : b.stretch_begin, watch));
+  greatest = std::max(greatest, move(b, one_pass_ ? b.chain_stretch_end : b.stretch_begin, watch));
   clock.tick(StageId::gather_and_move);
   return greatest;
 }

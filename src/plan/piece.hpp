@@ -74,6 +74,7 @@ class Piece {
   void hold_after(Index begin, Index end);
 
   const KernelTable& kernels_ = kernels();
+  const bool one_pass_ = kernels_.update_chain[0][0][0][0] != nullptr;  ///< moves chains as it computes them
   StepPlan plan_;
   bool whole_;
   int levels_ = 1;

@@ -78,6 +78,17 @@ inline Graph random_graph(Index nodes, Index elements, unsigned seed) {
   return g;
 }
 
+// A chain, and a run of offset 9 from its last node on: in a piece that has the chain only, the run's first
+// element joins neighbours, as the nodes between are missing.
+inline Graph skipping_graph() {
+  Graph g{"skipping", 200, {}, {}};
+  for (Index i = 0; i < 151; ++i) {
+    g.a.push_back(i);
+    g.b.push_back(i < 127 ? i + 1 : i + 9);
+  }
+  return g;
+}
+
 inline std::vector<Graph> sample_graphs() {
   std::vector<Graph> list;
   for (int sub = 1; sub <= 3; ++sub)
@@ -93,6 +104,7 @@ inline std::vector<Graph> sample_graphs() {
   list.push_back(dressed_net_graph(70, 20, 9, 33));
   for (unsigned seed = 1; seed < 7; ++seed)
     list.push_back(random_graph(50 * static_cast<Index>(seed), 200 * static_cast<Index>(seed), seed));
+  list.push_back(skipping_graph());
   list.push_back({"empty", 5, {}, {}});
   return list;
 }
