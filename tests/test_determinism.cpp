@@ -90,6 +90,25 @@ Case small_large_capture() {
   return one;
 }
 
+// The same scenes with rings that slide, some of them several in one element.
+Case sliding(Case one, int elements, const char* step, std::int64_t steps) {
+  one.sets.push_back(
+      {one.name == std::string("ring_pull") ? "ring.r1.joint" : "rings.r.joint", "\"sliding\""});
+  one.sets.push_back({"time.step_s", step});
+  one.steps = steps;
+  if (one.name == std::string("ring_pull")) {
+    one.sets.push_back({"thread.main.elements", std::to_string(elements)});
+    return one;
+  }
+  for (const char* thread : {"c_top", "c_right", "c_bottom", "c_left"})
+    one.sets.push_back({std::string("thread.") + thread + ".elements", std::to_string(elements)});
+  return one;
+}
+Case sliding_ring_pull() {
+  return sliding({"ring_pull", {{"thread.main.velocity_m_s", "[0, 0, -1]"}}, 0}, 26, "2e-5", 20000);
+}
+Case sliding_capture() { return sliding(capture(), 12, "4e-6", 8000); }
+
 // The large capture in full size: hundreds of blocks, few steps.
 Case full_large_capture() {
   return {"large_capture", {{"closing.time_s", "0.00004"}, {"target.ball.center_m", "[0, 0, 3.0005]"}}, 60};
@@ -106,12 +125,14 @@ void append(std::string& bits, const List& list) {
   bits.append(reinterpret_cast<const char*>(list.data()), list.size() * sizeof(typename List::value_type));
 }
 
+static_assert(sizeof(kernel::JointState) == 8 * sizeof(double) + 2 * sizeof(int),
+              "no padding between its fields");
 static_assert(sizeof(kernel::RingTally) == 16 * sizeof(double) + 2 * sizeof(int),
               "no padding between its fields");
 
 struct Outcome {
   std::uint64_t hash = 0;
-  std::string nodes, rings, reactions, dissipated, energies, frame;
+  std::string nodes, rings, joints, reactions, dissipated, energies, frame;
   double ball_impulse = 0;
   std::size_t rings_touched = 0;
   bool ball_touched = false, closed = false;
@@ -126,6 +147,7 @@ Outcome outcome_of(Simulation& simulation) {
   out.hash = state_hash(s);
   for (const auto* field : {&s.x, &s.y, &s.z, &s.vx, &s.vy, &s.vz}) append(out.nodes, *field);
   append(out.rings, s.rings);
+  append(out.joints, s.joints);
   append(out.reactions, s.reactions);
   append(out.dissipated, s.dissipated);
   append(out.energies, frame.energy.values());
@@ -154,6 +176,7 @@ void expect_same(const Outcome& a, const Outcome& b) {
   EXPECT_EQ(a.hash, b.hash);
   EXPECT_TRUE(a.nodes == b.nodes) << "node fields";
   EXPECT_TRUE(a.rings == b.rings) << "ring tallies";
+  EXPECT_TRUE(a.joints == b.joints) << "sliding joints";
   EXPECT_TRUE(a.reactions == b.reactions) << "reactions";
   EXPECT_TRUE(a.dissipated == b.dissipated) << "energy lost in dampers";
   EXPECT_TRUE(a.energies == b.energies) << "energies";
@@ -180,6 +203,8 @@ TEST(Determinism, Capture) { expect_same_for_all_threads(capture(), {1, 2, 3, 4,
 TEST(Determinism, SmallLargeCapture) {
   expect_same_for_all_threads(small_large_capture(), {1, 2, 3, 4, 7}, 8, true);
 }
+TEST(Determinism, SlidingRingPull) { expect_same_for_all_threads(sliding_ring_pull(), {1, 2, 3}, 1, false); }
+TEST(Determinism, SlidingCapture) { expect_same_for_all_threads(sliding_capture(), {1, 2, 4}, 8, true); }
 TEST(Determinism, FullLargeCapture) { expect_same_for_all_threads(full_large_capture(), {2, 7}, 0, true); }
 
 // A hanging net too large for the cache, without contacts: several steps go through it in one sweep.
@@ -223,7 +248,8 @@ TEST(Determinism, SweepsOfALargeNet) {
 // Looking changes nothing
 
 TEST(Determinism, FramesOnTheWayChangeNothing) {
-  for (const Case& one : {ring_pull(), edge_closure(), capture(), small_large_capture()}) {
+  for (const Case& one : {ring_pull(), edge_closure(), capture(), small_large_capture(), sliding_ring_pull(),
+                          sliding_capture()}) {
     SCOPED_TRACE(one.name);
     Simulation looked_at(read(one), 1);
     for (std::int64_t step = 0; step < one.steps; step = std::min(step + 37, one.steps)) {
@@ -322,11 +348,12 @@ class InstructionSets : public testing::TestWithParam<const char*> {
   void TearDown() override { std::filesystem::remove_all(folder_); }
 
   nlohmann::json summary(const Case& one, const std::string& isa) const {
-    const std::filesystem::path out = folder_ / (std::string(one.name) + "_" + isa);
+    const std::filesystem::path out =
+        folder_ / (std::string(one.name) + "_" + std::to_string(one.steps) + "_" + isa);
     std::string command = "CINCH_ISA=" + isa + " '" + CINCH_PROGRAM + "' run '" + case_file(one) +
                           "' --quiet --out '" + out.string() + "' --threads 1";
     for (const Override& set : one.sets) command += " --set '" + set.key + "=" + set.value + "'";
-    command += " --set time.end_s=" + std::to_string(1e-6 * static_cast<double>(one.steps));
+    command += " --set time.end_s=" + std::to_string(prepare(read(one)).dt * static_cast<double>(one.steps));
     EXPECT_EQ(std::system((command + " > '" + (folder_ / "log").string() + "' 2>&1").c_str()), 0) << command;
     std::ifstream file(out / "summary.json");
     return nlohmann::json::parse(file);
@@ -348,7 +375,8 @@ TEST_P(InstructionSets, GiveTheSameHash) {
   const std::string isa = GetParam();
   if (!machine_has(isa)) GTEST_SKIP() << "this machine has no x86-64-" << isa;
   if (!build_has(isa)) return expect_refused(isa);
-  for (const Case& one : {ring_pull(), edge_closure(), capture(), small_large_capture()}) {
+  for (const Case& one : {ring_pull(), edge_closure(), capture(), small_large_capture(), sliding_ring_pull(),
+                          sliding_capture()}) {
     SCOPED_TRACE(one.name);
     const nlohmann::json base = summary(one, "base"), other = summary(one, isa);
     EXPECT_EQ(base.at("isa"), "base");

@@ -58,6 +58,17 @@ std::vector<Key<Part>> ring_keys(Get get) {
         .meaning = "Names of the threads it can touch; empty: every thread.",
         .source = "a ring stops whatever meets it"},
        to(&Ring::threads)},
+      {{.name = "joint",
+        .type = choice,
+        .words = {"contact", "sliding"},
+        .fallback = "\"contact\"",
+        .meaning =
+            "How threads go through it: `contact` with its wire, or `sliding` without friction, the ring "
+            "inside "
+            "an element of the thread (threads that pass through its opening at the start, each once; far "
+            "fewer elements and longer steps for the same error).",
+        .source = "Sec. 4; `sliding` is not in the paper"},
+       to(&Ring::joint)},
   };
 }
 

@@ -8,8 +8,9 @@ namespace cinch::kernel {
 constexpr Index block_size = 2048;  ///< nodes that are computed and moved together, about
 constexpr Index grain = 128;        ///< nodes whose elements share one row of the ledger; whole groups
 constexpr Index lanes = 8;          ///< nodes and elements go in groups of so many, whatever the vector width
-constexpr Index ring_scratch = 3584;  ///< numbers that a batch of ring contacts works on
-constexpr Index max_terms = 3;        ///< element forces on a node that one pass adds up, in pairs (+, -)
+constexpr Index ring_scratch = 3584;   ///< numbers that a batch of ring contacts works on
+constexpr Index sliding_scratch = 64;  ///< numbers a joint that sliding joints work on
+constexpr Index max_terms = 3;         ///< element forces on a node that one pass adds up, in pairs (+, -)
 
 /// Elements whose lower ends are the nodes of whole groups from `node` on; the upper ends lie `step` nodes
 /// further on. Lanes without element have void parameters and give zero force.
@@ -170,6 +171,52 @@ struct RingArguments {
   double* scratch;  ///< ring_scratch numbers, of which only this call knows what they mean; zero at first
   bool golden;      ///< closest point by golden section, the paper's method
   bool couple;      ///< keep the couple that eq. (12) drops
+};
+
+/// A ring that slides on a thread. Those of one thread follow each other in their order along it.
+struct Joint {
+  Index ring;
+  Index host_a, host_b;  ///< host nodes; the same for a ring with a node of its own
+  double normal[3];      ///< used when host_a == host_b
+  double opening;        ///< radius of the disc that the thread's centre line can pass, m
+};
+
+/// A thread on which rings slide; its elements are alike.
+struct SlidingThread {
+  Index node_begin, elements;              ///< its nodes are nodes[node_begin + 0 .. elements]
+  Index joint_begin, joint_end;            ///< its joints, in their order along it
+  double stiffness, damping, rest_length;  ///< of each element: N/m, N s/m, m
+  bool booked;                             ///< here, or elsewhere
+};
+
+/// Where a joint stands and what it has felt.
+struct JointState {
+  Index element;     ///< of its thread: the ring lies in it
+  Index passes;      ///< nodes that have passed the ring
+  double offset[3];  ///< of the thread's waypoint from the ring's centre, m
+  double length;     ///< of its element, m; good only after a look
+  double tension;    ///< on both sides of the ring, N
+  double energy;  ///< stored in its element beyond that of the straight one, J; of several rings at the first
+  double
+      dissipated;  ///< by dampers beyond those of straight elements, J; of all rings of a thread at the first
+  double along;    ///< unstretched thread from its start to the ring, m: the material coordinate; as length
+};
+
+/// How many loads sliding joints wrote on nodes of threads and of the rings' hosts.
+struct SlidingLoads {
+  Index threads, hosts;
+};
+
+struct SlidingArguments {
+  ContactArguments contact;
+  const Index* nodes;
+  const SlidingThread* threads;
+  Index thread_count;
+  const Joint* joints;
+  JointState* states;         ///< joint
+  RingTally* const* tallies;  ///< ring: where it is booked, or null
+  Index ring_count;
+  double* scratch;  ///< sliding_scratch numbers a joint, of which only this call knows what they mean
 };
 
 /// What one pair with a ball has felt, or a sum of such.

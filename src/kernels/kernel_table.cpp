@@ -8,20 +8,22 @@
 
 namespace cinch {
 
-#define CINCH_DECLARE_ISA(isa)                \
-  namespace isa {                             \
-  void fill_axial(KernelTable& table);        \
-  void fill_ring_contact(KernelTable& table); \
-  void fill_ball_contact(KernelTable& table); \
-  void fill_node_update(KernelTable& table);  \
-  void fill_energy(KernelTable& table);       \
-  void fill(KernelTable& table) {             \
-    fill_axial(table);                        \
-    fill_ring_contact(table);                 \
-    fill_ball_contact(table);                 \
-    fill_node_update(table);                  \
-    fill_energy(table);                       \
-  }                                           \
+#define CINCH_DECLARE_ISA(isa)                 \
+  namespace isa {                              \
+  void fill_axial(KernelTable& table);         \
+  void fill_ring_contact(KernelTable& table);  \
+  void fill_ball_contact(KernelTable& table);  \
+  void fill_sliding_joint(KernelTable& table); \
+  void fill_node_update(KernelTable& table);   \
+  void fill_energy(KernelTable& table);        \
+  void fill(KernelTable& table) {              \
+    fill_axial(table);                         \
+    fill_ring_contact(table);                  \
+    fill_ball_contact(table);                  \
+    fill_sliding_joint(table);                 \
+    fill_node_update(table);                   \
+    fill_energy(table);                        \
+  }                                            \
   }
 CINCH_DECLARE_ISA(base)
 #ifdef CINCH_X86_ISAS

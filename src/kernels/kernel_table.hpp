@@ -39,6 +39,11 @@ struct KernelTable {
   /// The same for balls; two loads a pair.
   Index (*ball_contacts)(const kernel::BallArguments&, const kernel::Pair* pairs, const Index* near,
                          Index count, double* gap, kernel::Load* loads);
+  /// Rings that slide on threads: moves waypoints, lets nodes pass, writes what nodes of the threads take
+  /// beside the force of straight elements and what the rings' hosts take (room for four a joint each). With
+  /// contact.dt = 0 no node passes.
+  kernel::SlidingLoads (*sliding_joints)(const kernel::SlidingArguments&, kernel::Load* on_threads,
+                                         kernel::Load* on_hosts);
 };
 
 /// The best table for this machine, or the one named by the environment variable CINCH_ISA ("base", "v3",
@@ -49,6 +54,7 @@ namespace CINCH_ISA {
 void fill_axial(KernelTable& table);
 void fill_ring_contact(KernelTable& table);
 void fill_ball_contact(KernelTable& table);
+void fill_sliding_joint(KernelTable& table);
 void fill_node_update(KernelTable& table);
 void fill_energy(KernelTable& table);
 }  // namespace CINCH_ISA

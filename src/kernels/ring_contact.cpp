@@ -15,6 +15,7 @@
 // their own, goes through one_pair, which is also the plain reference of the batches.
 #include "kernels/kernel_table.hpp"
 #include "kernels/ring_lanes.hpp"
+#include "kernels/ring_tally.hpp"
 
 namespace cinch::CINCH_ISA {
 namespace {
@@ -139,23 +140,6 @@ inline void write_loads(const kernel::RingLane& p, const PairLoads& loads, LoadW
 }
 
 // ---- what one ring feels
-
-// Peak, first contact and its first release.
-inline void note_force(RingTally& tally, double force, double time) {
-  if (force > tally.peak_force) {
-    tally.peak_force = force;
-    tally.peak_time = time;
-  }
-  if (tally.state == 2) return;
-  if (tally.state == 0 && force > 0) {
-    tally.state = 1;
-    tally.first_time = time;
-  }
-  if (tally.state == 1) {
-    if (force > tally.first_peak) tally.first_peak = force;
-    if (!(force > 0)) tally.state = 2;
-  }
-}
 
 // What this step adds to the ring's tally.
 inline void book(const RingArguments& g, Index r, const RingSum& sum, RingTally& tally) {

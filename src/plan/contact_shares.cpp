@@ -24,7 +24,8 @@ LocalContacts all_contacts(const Model& model, const ContactList& list, State& s
   out.pairs = list.pairs;
   out.ball_begin = list.ball_begin.front();
   out.rings = model.rings;
-  for (kernel::RingTally& tally : state.rings) out.ring_tallies.push_back(&tally);
+  for (std::size_t r = 0; r < state.rings.size(); ++r)
+    out.ring_tallies.push_back(model.slides(r) ? nullptr : &state.rings[r]);
   append_centers(model, out);
   out.ball_tallies.assign(at(out.ball_begin), nullptr);
   for (Index i = out.ball_begin; i < static_cast<Index>(list.pairs.size()); ++i)
@@ -64,18 +65,24 @@ void hand_out(const Model& model, const ContactList& list, State& state, const s
     take_pair(pair, pair.with);
     out.ball_tallies.push_back(own(pair.a) ? tally_of(list, state, i) : nullptr);
   }
+  SlidingJoints joints;
+  joints.take_share(model, own);
+  const std::vector<Index> for_joints = joints.nodes_needed();
+  needed.insert(needed.end(), for_joints.begin(), for_joints.end());
   std::sort(needed.begin(), needed.end());
   needed.erase(std::unique(needed.begin(), needed.end()), needed.end());
   std::erase_if(needed, [&](Index node) { return piece.numbering().local(node) >= 0; });
   piece.set_contact_ghosts(std::move(needed), node_share);
   for (kernel::Pair& pair : out.pairs) pair.a = piece.local(pair.a), pair.b = piece.local(pair.b);
   for (kernel::RingGeometry& ring : out.rings) ring.a = piece.local(ring.a), ring.b = piece.local(ring.b);
+  joints.renumber([&](Index node) { return piece.local(node); });
+  piece.set_joints(std::move(joints));
   piece.contacts().renew(std::move(out), list.margin(), piece.share());
 }
 
-void release_lonely_rings(const ContactList& list, State& state) {
+void release_lonely_rings(const Model& model, const ContactList& list, State& state) {
   for (std::size_t r = 0; r < state.rings.size(); ++r) {
-    if (list.ring_begin[r] < list.ring_begin[r + 1]) continue;
+    if (list.ring_begin[r] < list.ring_begin[r + 1] || model.slides(r)) continue;
     kernel::RingTally& tally = state.rings[r];
     tally.force[0] = tally.force[1] = tally.force[2] = 0;
     tally.potential = 0;

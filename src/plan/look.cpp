@@ -23,7 +23,11 @@ double contact_energy(const State& state) {
 
 }  // namespace
 
-double dissipated_by_dampers(const State& state, double dt) { return dt * sum(state.dissipated); }
+double dissipated_by_dampers(const State& state, double dt) {
+  double energy = dt * sum(state.dissipated);
+  for (const kernel::JointState& joint : state.joints) energy += joint.dissipated;
+  return energy;
+}
 
 double dissipated_by_contacts(const State& state) {
   double energy = 0;
@@ -69,6 +73,7 @@ void Look::sum_energies(double dt) {
   energy_.kinetic = nodes.kinetic;
   energy_.gravity = nodes.gravity;
   energy_.elastic = sum(glance_.elastic);
+  for (const kernel::JointState& joint : s.joints) energy_.elastic += joint.energy;
   energy_.contact = contact_energy(s);
   energy_.dissipated_damper = dissipated_by_dampers(s, dt);
   energy_.dissipated_contact = dissipated_by_contacts(s);
@@ -113,9 +118,23 @@ Vec3 Look::contact_force(Index node) const {
   return force;
 }
 
+const kernel::JointState* Look::joint_in(Index element) const {
+  for (std::size_t t = 0; t < model_->sliding_threads.size(); ++t) {
+    const kernel::SlidingThread& thread = model_->sliding_threads[t];
+    if (!model_->slides_on(t, element)) continue;
+    for (Index j = thread.joint_begin; j < thread.joint_end; ++j)
+      if (model_->sliding_first[t] + state_->joints[at(j)].element == element) return &state_->joints[at(j)];
+  }
+  return nullptr;
+}
+
 // From the definition, in the user's numbering: the kernels only give the forces' sums.
 Look::Pull Look::pull(Index element) const {
   if (!present(element)) return {0, 0};
+  if (const kernel::JointState* joint = joint_in(element)) {
+    const double rest = model_->rest_length[at(element)];
+    return {joint->tension, (joint->length - rest) / rest};
+  }
   const auto e = at(element);
   const Index a = model_->end_a[e], b = model_->end_b[e];
   const Vec3 r = position(b) - position(a);

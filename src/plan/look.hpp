@@ -49,6 +49,8 @@ class Look {
  private:
   Vec3 speed(Index node) const;
   void sum_energies(double dt);
+  /// The first ring that lies in an element, or null.
+  const kernel::JointState* joint_in(Index element) const;
 
   const Model* model_ = nullptr;
   const State* state_ = nullptr;

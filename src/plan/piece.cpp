@@ -36,6 +36,7 @@ std::size_t reach_in_blocks(const std::vector<Index>& edges, Index reach) {
 Piece::Piece(const Model& model, const StepPlan& plan, const std::vector<double>& node_share)
     : plan_(plan), whole_(true), numbering_(Numbering::all(model.nodes)), topology_(model.topology) {
   set_up(model, node_share);
+  joints_.take_all(model);
 }
 
 Piece::Piece(const Model& model, const StepPlan& plan, const std::vector<double>& node_share,
@@ -166,10 +167,12 @@ void Piece::take(State& state) {
     for (std::size_t i = 0; i < contact_ghosts_.size(); ++i)
       fields_[f][numbering_.global.size() + i] = from[at(contact_ghosts_[i])];
   }
+  joints_.take(state);
   bind(state);
 }
 
 void Piece::give(State& state) const {
+  joints_.give(state);
   if (whole_) return;
   for (std::size_t f = 0; f < 6; ++f) {
     AlignedVector<double>& to = state.*node_fields[f].values;
@@ -274,14 +277,24 @@ void Piece::hold_after(Index begin, Index end) {
     kernels_.hold_after(node_, constraints_.data(), begin, end, held_.data(), reactions_.data());
 }
 
+double Piece::load_joints() {
+  const auto load = [&](std::span<const kernel::Load> list) {
+    return kernels_.load_nodes(node_, list.data(), static_cast<Index>(list.size()));
+  };
+  const double threads = load(joints_.on_threads());
+  return std::max(threads, load(joints_.on_hosts()));
+}
+
 double Piece::step(double time, double motion, StageClock& clock) {
   const auto constraints = static_cast<Index>(constraints_.size());
   contacts_.evaluate(view(), plan_, time, plan_.dt, motion);
+  if (plan_.joints) joints_.evaluate(view(), plan_, time, plan_.dt);
   clock.tick(StageId::contacts);
   hold_before(0, constraints);
   double greatest = 0;
   for (const Block& block : reduction_.blocks) greatest = std::max(greatest, compute_and_move(block, clock));
   greatest = std::max(greatest, kernels_.load_nodes(node_, contacts_.loads(), contacts_.load_count()));
+  if (plan_.joints) greatest = std::max(greatest, load_joints());
   hold_after(0, constraints);
   clock.tick(StageId::gather_and_move);
   return greatest;
@@ -324,6 +337,10 @@ void Piece::lend(Glance& out) {
 void Piece::glance(State& state, double time, double motion, Glance& out) {
   take(state);
   contacts_.evaluate(view(), plan_, time, 0, motion);
+  if (plan_.joints) {
+    joints_.evaluate(view(), plan_, time, 0);
+    joints_.tell(state);
+  }
   lend(out);
   const auto constraints = static_cast<Index>(constraints_.size());
   hold_before(0, constraints);
@@ -332,6 +349,7 @@ void Piece::glance(State& state, double time, double motion, Glance& out) {
     move(block, block.stretch_begin, false);
   }
   kernels_.load_nodes(node_, contacts_.loads(), contacts_.load_count());
+  if (plan_.joints) load_joints();
   hold_after(0, constraints);
   for (std::size_t f = 0; !whole_ && f < 3; ++f)
     for (std::size_t i = 0; i < numbering_.global.size(); ++i)
@@ -339,8 +357,12 @@ void Piece::glance(State& state, double time, double motion, Glance& out) {
 }
 
 void Piece::append_loads(std::vector<kernel::Load>& loads) const {
-  for (Index i = 0; i < contacts_.load_count(); ++i) {
-    kernel::Load load = contacts_.loads()[i];
+  append({contacts_.loads(), at(contacts_.load_count())}, loads);
+  append(joints_.on_hosts(), loads);
+}
+
+void Piece::append(std::span<const kernel::Load> list, std::vector<kernel::Load>& loads) const {
+  for (kernel::Load load : list) {
     if (load.node >= numbering_.nodes() || !numbering_.own(load.node)) continue;
     load.node = numbering_.global[at(load.node)];
     loads.push_back(load);

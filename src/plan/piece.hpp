@@ -5,6 +5,7 @@
 #pragma once
 #include "plan/glance.hpp"
 #include "plan/near_contacts.hpp"
+#include "plan/sliding_joints.hpp"
 #include "plan/stage_clock.hpp"
 #include "store/force_reduction.hpp"
 #include "store/state.hpp"
@@ -35,6 +36,7 @@ class Piece {
   std::vector<Index> ghost_places() const, ghosts() const;
 
   NearContacts& contacts() { return contacts_; }
+  void set_joints(SlidingJoints joints) { joints_ = std::move(joints); }
   const double* share() const { return share_.data(); }  ///< node_share by local node
 
   /// Works from now on with this state: on it (whole), or on copies of all local nodes.
@@ -52,7 +54,7 @@ class Piece {
   /// What one step from this state would add to the speeds of its own nodes; moves and books nothing. With
   /// several pieces `out` has its final size already.
   void glance(State& state, double time, double motion, Glance& out);
-  /// Appends the contact forces on its own nodes as last evaluated, in the user's numbers.
+  /// Appends the forces of contacts and joints on its own nodes as last evaluated, in the user's numbers.
   void append_loads(std::vector<kernel::Load>& loads) const;
   std::size_t memory() const;  ///< bytes, see memory.hpp
 
@@ -70,6 +72,8 @@ class Piece {
   double compute_and_move(const Block& block, StageClock& clock);
   kernel::Book::Sum step_book() const;
   void lend(Glance& out);
+  void append(std::span<const kernel::Load> list, std::vector<kernel::Load>& loads) const;
+  double load_joints();
   void hold_before(Index begin, Index end);
   void hold_after(Index begin, Index end);
 
@@ -99,6 +103,7 @@ class Piece {
   kernel::AxialArguments axial_{};
   kernel::NodeArguments node_{};
   NearContacts contacts_;
+  SlidingJoints joints_;
 };
 
 }  // namespace cinch

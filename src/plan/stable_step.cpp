@@ -7,30 +7,87 @@
 namespace cinch {
 namespace {
 
+constexpr std::size_t at(Index i) { return static_cast<std::size_t>(i); }
+
 // Inverse masses with zero at fixed nodes.
 std::vector<double> mobility(const Model& model) {
   std::vector<double> inverse;
   inverse.reserve(model.mass.size());
   for (const double mass : model.mass) inverse.push_back(1 / mass);
   for (const kernel::Constraint& c : model.constraints)
-    if (c.ax == 0 && c.ay == 0 && c.az == 0) inverse[static_cast<std::size_t>(c.node)] = 0;
+    if (c.ax == 0 && c.ay == 0 && c.az == 0) inverse[at(c.node)] = 0;
   return inverse;
 }
 
-// Calls visit(e, a, b) for each element and its usage(dt) = a dt^2 + b dt of the stable step.
+// Calls visit(node, weight) for what ring of a joint moves: weight bounds how fast the thread's length
+// changes with the node's place. Half of at most 2 goes to each end of a host, and its turn adds at most 2 c
+// / L.
 template <class Visit>
-void for_each_usage(const Model& model, const std::vector<double>& inverse, Visit visit) {
-  const auto elements = static_cast<std::size_t>(model.elements);
-  std::vector<double> k_sum(inverse.size()), c_sum(inverse.size());
-  for (std::size_t e = 0; e < elements; ++e)
+void for_each_host(const Model& model, const kernel::Joint& joint, Visit visit) {
+  if (joint.host_a == joint.host_b) return visit(at(joint.host_a), 2.0);
+  const double weight = 1 + 2 * joint.opening / model.ring_host_length[at(joint.ring)];
+  visit(at(joint.host_a), weight);
+  visit(at(joint.host_b), weight);
+}
+
+// S and C of the header.
+struct NodeSums {
+  std::vector<double> stiffness, damping;
+};
+
+NodeSums node_sums(const Model& model) {
+  NodeSums sums{std::vector<double>(at(model.nodes)), std::vector<double>(at(model.nodes))};
+  for (std::size_t e = 0; e < at(model.elements); ++e)
     for (const Index end : {model.end_a[e], model.end_b[e]}) {
-      k_sum[static_cast<std::size_t>(end)] += model.stiffness[e];
-      c_sum[static_cast<std::size_t>(end)] += model.damping[e];
+      sums.stiffness[at(end)] += model.stiffness[e];
+      sums.damping[at(end)] += model.damping[e];
     }
-  for (std::size_t e = 0; e < elements; ++e) {
-    const auto a = static_cast<std::size_t>(model.end_a[e]), b = static_cast<std::size_t>(model.end_b[e]);
-    visit(e, (k_sum[a] * inverse[a] + k_sum[b] * inverse[b]) / 4,
-          (c_sum[a] * inverse[a] + c_sum[b] * inverse[b]) / 2);
+  for (const kernel::SlidingThread& thread : model.sliding_threads)
+    for (Index j = thread.joint_begin; j < thread.joint_end; ++j)
+      for_each_host(model, model.joints[at(j)], [&](std::size_t node, double weight) {
+        sums.stiffness[node] += weight * thread.stiffness;
+        sums.damping[node] += weight * thread.damping;
+      });
+  return sums;
+}
+
+// Usage(dt) = quadratic dt^2 + linear dt of the stable step.
+struct Usage {
+  double quadratic = 0, linear = 0;
+
+  void add(const NodeSums& sums, const std::vector<double>& inverse_mass, std::size_t node, double weight) {
+    quadratic += weight * sums.stiffness[node] * inverse_mass[node] / 4;
+    linear += weight * sums.damping[node] * inverse_mass[node] / 2;
+  }
+  double at_step(double step) const { return (quadratic * step + linear) * step; }
+};
+
+// What all rings of a thread, should they meet in one of its elements, add to that element's usage; by
+// element.
+std::vector<Usage> ring_usages(const Model& model, const NodeSums& sums,
+                               const std::vector<double>& inverse_mass) {
+  std::vector<Usage> usages(model.sliding_threads.empty() ? 0 : at(model.elements));
+  for (std::size_t t = 0; t < model.sliding_threads.size(); ++t) {
+    const kernel::SlidingThread& thread = model.sliding_threads[t];
+    Usage sum;
+    for (Index j = thread.joint_begin; j < thread.joint_end; ++j)
+      for_each_host(model, model.joints[at(j)],
+                    [&](std::size_t node, double weight) { sum.add(sums, inverse_mass, node, weight); });
+    std::fill_n(usages.begin() + model.sliding_first[t], thread.elements, sum);
+  }
+  return usages;
+}
+
+// Calls visit(e, usage) for each element.
+template <class Visit>
+void for_each_usage(const Model& model, const std::vector<double>& inverse_mass, Visit visit) {
+  const NodeSums sums = node_sums(model);
+  const std::vector<Usage> rings = ring_usages(model, sums, inverse_mass);
+  for (std::size_t e = 0; e < at(model.elements); ++e) {
+    Usage usage = rings.empty() ? Usage{} : rings[e];
+    usage.add(sums, inverse_mass, at(model.end_a[e]), 1);
+    usage.add(sums, inverse_mass, at(model.end_b[e]), 1);
+    visit(e, usage);
   }
 }
 
@@ -39,9 +96,9 @@ void for_each_usage(const Model& model, const std::vector<double>& inverse, Visi
 StableStep stable_step(const Model& model) {
   StableStep out;
   out.step = std::numeric_limits<double>::infinity();
-  for_each_usage(model, mobility(model), [&](std::size_t e, double quadratic, double linear) {
+  for_each_usage(model, mobility(model), [&](std::size_t e, const Usage& u) {
     // the positive root of quadratic dt^2 + linear dt = 1, free of cancellation
-    const double step = 2 / (linear + std::sqrt(linear * linear + 4 * quadratic));
+    const double step = 2 / (u.linear + std::sqrt(u.linear * u.linear + 4 * u.quadratic));
     if (step < out.step) {
       out.step = step;
       out.element = static_cast<Index>(e);
@@ -53,13 +110,17 @@ StableStep stable_step(const Model& model) {
 std::vector<double> node_share(const Model& model, double step) {
   const std::vector<double> inverse = mobility(model);
   std::vector<double> used(inverse.size());
-  for_each_usage(model, inverse, [&](std::size_t e, double quadratic, double linear) {
-    const double usage = (quadratic * step + linear) * step;
-    for (const Index end : {model.end_a[e], model.end_b[e]}) {
-      double& u = used[static_cast<std::size_t>(end)];
-      u = std::max(u, usage);
-    }
+  const auto use = [&](std::size_t node, double usage) { used[node] = std::max(used[node], usage); };
+  std::vector<double> greatest(model.sliding_threads.size());
+  for_each_usage(model, inverse, [&](std::size_t e, const Usage& usage) {
+    use(at(model.end_a[e]), usage.at_step(step));
+    use(at(model.end_b[e]), usage.at_step(step));
+    for (std::size_t t = 0; t < greatest.size(); ++t)
+      if (model.slides_on(t, static_cast<Index>(e))) greatest[t] = std::max(greatest[t], usage.at_step(step));
   });
+  for (std::size_t t = 0; t < greatest.size(); ++t)
+    for (Index j = model.sliding_threads[t].joint_begin; j < model.sliding_threads[t].joint_end; ++j)
+      for_each_host(model, model.joints[at(j)], [&](std::size_t node, double) { use(node, greatest[t]); });
   for (std::size_t i = 0; i < used.size(); ++i) used[i] = inverse[i] / std::max(1 - used[i], 1e-3);
   return used;
 }

@@ -14,7 +14,8 @@ StepPlan plan_steps(const Scene& scene, const Model& model, double dt) {
   plan.damped = model.damped;
   plan.ledger = scene.output.ledger;
   plan.gravity = model.has_gravity;
-  plan.rings = !model.rings.empty();
+  plan.rings = model.ring_contacts;
+  plan.joints = !model.joints.empty();
   plan.balls = !model.balls.empty();
   plan.couple = scene.contact.couple == RingCouple::conserving;
   plan.golden = scene.contact.distance == DistanceMethod::golden;
@@ -26,6 +27,12 @@ StepPlan plan_steps(const Scene& scene, const Model& model, double dt) {
   return plan;
 }
 
+static std::size_t touching_rings(const Model& model) {
+  std::size_t count = 0;
+  for (std::size_t r = 0; r < model.rings.size(); ++r) count += !model.slides(r);
+  return count;
+}
+
 std::vector<StageInfo> StepPlan::stages(const Model& model) const {
   const auto count = [](std::size_t n, const char* what) { return std::to_string(n) + " " + what; };
   std::vector<StageInfo> list;
@@ -34,12 +41,18 @@ std::vector<StageInfo> StepPlan::stages(const Model& model) const {
                       count(model.topology.runs.size(), "runs and ") +
                       count(model.topology.links.size(), "links, springs") + (damped ? " and dampers" : "")});
   list.push_back({"dampers", damped, damped ? "inside axial forces" : "no material has damping"});
-  list.push_back({"ring contact", rings,
-                  rings
-                      ? count(model.rings.size(), golden ? "rings, golden section" : "rings, exact distance")
-                      : "no rings in this phase"});
+  list.push_back(
+      {"ring contact", rings,
+       rings    ? count(touching_rings(model), golden ? "rings, golden section" : "rings, exact distance")
+       : joints ? "every ring slides"
+                : "no rings in this phase"});
+  list.push_back({"sliding joints", joints,
+                  joints ? count(model.joints.size(), "rings on ") +
+                               count(model.sliding_threads.size(),
+                                     model.sliding_threads.size() == 1 ? "thread" : "threads")
+                         : "no ring slides in this phase"});
   list.push_back({"couple of eq. (12)", rings && couple,
-                  !rings   ? "no rings"
+                  !rings   ? "no ring contact"
                   : couple ? "conserving"
                            : "paper: dropped and booked"});
   list.push_back({"target contact", balls, balls ? count(model.balls.size(), "balls") : "no target"});

@@ -20,16 +20,16 @@ struct StageInfo {
 
 struct StepPlan {
   double dt = 0;  ///< s
-  bool damped = false, ledger = false, gravity = false, rings = false, balls = false;
+  bool damped = false, ledger = false, gravity = false, rings = false, balls = false, joints = false;
   bool couple = true, golden = false;
   double alpha_ring = 0, alpha_target = 0;   ///< s/m
   double margin = 0;                         ///< m, 0: automatic
   double speed_limit = 0;                    ///< m/s
   Vec3 gravity_acceleration = Vec3::Zero();  ///< m/s^2
 
-  /// Only scenes with contacts watch the greatest speed in every step: it tells how long a list of pairs is
-  /// good.
-  bool contacts() const { return rings || balls; }
+  /// Only scenes in which something acts on nodes beside their elements go step by step and watch the
+  /// greatest speed: it tells how long a list of pairs is good.
+  bool contacts() const { return rings || balls || joints; }
   std::vector<StageInfo> stages(const Model& model) const;
 };
 

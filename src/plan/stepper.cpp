@@ -70,7 +70,7 @@ void Stepper::hand_out_contacts(State& state) {
 void Stepper::renew_contacts(State& state) {
   const double begin = clock_seconds();
   contacts_.rebuild(*model_, state);
-  release_lonely_rings(contacts_, state);
+  release_lonely_rings(*model_, contacts_, state);
   motion_ = 0;
   contacts_valid_ = true;
   if (!pieces_.empty()) hand_out_contacts(state);

@@ -6,17 +6,15 @@
 #include <numeric>
 
 #include "base/error.hpp"
+#include "scene/fault.hpp"
 #include "scene/net_pattern.hpp"
+#include "scene/threading.hpp"
 
 namespace cinch {
 namespace {
 
 /// Slots of runs are numbered, and an element may bring eight void ones: see topology.cpp.
 constexpr std::int64_t most_elements = std::numeric_limits<Index>::max() / 9;
-
-[[noreturn]] void fail(const SourceRef& source, const std::string& message) {
-  throw CaseError((source.text.empty() ? std::string() : source.text + ": ") + "error: " + message);
-}
 
 // "kind.name.place" -> {kind, name, place}; the place may hold further dots.
 struct Reference {
@@ -59,6 +57,7 @@ class Assembler {
     for (const Mechanism& mechanism : scene_.mechanisms)
       for (const char side : {'a', 'b'}) split_mass(mechanism, side);
     for (const Ring& ring : scene_.rings) add_ring(ring);
+    thread_rings(scene_, carriers_, out_);
     for (const BallTarget& ball : scene_.targets) add_ball(ball);
     superpose_closing_masses();
     balance_separations();
@@ -304,12 +303,6 @@ class Assembler {
     return -1;
   }
 
-  // The parts that a closing thread is laid along, as one chain of nodes with unstretched distances.
-  struct Carrier {
-    std::vector<Index> nodes;
-    std::vector<double> reach;  // unstretched distance from the first node, m
-  };
-
   std::vector<Index> polyline(const std::string& reference, const SourceRef& source) {
     const Reference at(reference);
     if (at.kind == "mechanism")
@@ -406,6 +399,7 @@ class Assembler {
     const Carrier carrier = carrier_of(thread);
     const double laid = thread.overhang_start + carrier.reach.back() + thread.overhang_end;
     const double length = thread.length > 0 ? thread.length : laid;
+    carriers_[static_cast<Index>(out_.parts.size())] = {carrier, thread.overhang_start, laid};
     add_thread_nodes(thread, length / thread.elements, [&](int k) {
       Lay lay = lay_at(carrier, thread, laid * k / thread.elements);
       const AssemblyNode &a = node(lay.a), &b = node(lay.b);
@@ -539,6 +533,7 @@ class Assembler {
   // incident elements as linked lists: half 2 e or 2 e + 1 of element e, and the half before it at the same
   // node
   std::vector<Index> latest_, earlier_;
+  std::map<Index, LaidAlong> carriers_;  // part of a closing thread
 };
 
 }  // namespace

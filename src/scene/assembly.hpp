@@ -65,16 +65,23 @@ struct Recoil {
   Vec3 jump = Vec3::Zero();
 };
 
+/// A thread that slides through a ring.
+struct Threading {
+  Index part = 0;
+  double along = 0;  ///< where the ring stands at first: elements from the thread's start
+};
+
 struct AssemblyRing {
   std::string name;
-  Index element = -1;              ///< host element, or -1
-  Index node = -1;                 ///< own node, or -1
-  Vec3 normal = Vec3::UnitX();     ///< of a ring with a node of its own
-  double radius = 0;               ///< R_B, of the wire's centre line, m
-  double wire_radius = 0;          ///< r_B, m
-  double compliance = 0;           ///< h of eq. (8), 1/Pa
-  std::vector<Index> parts;        ///< the threads it can touch
-  Index host_a = -1, host_b = -1;  ///< end nodes of the host element, or twice its own node
+  Index element = -1;                   ///< host element, or -1
+  Index node = -1;                      ///< own node, or -1
+  Vec3 normal = Vec3::UnitX();          ///< of a ring with a node of its own
+  double radius = 0;                    ///< R_B, of the wire's centre line, m
+  double wire_radius = 0;               ///< r_B, m
+  double compliance = 0;                ///< h of eq. (8), 1/Pa
+  std::vector<Index> parts;             ///< the threads whose contact it can feel
+  std::vector<Threading> threadings{};  ///< the threads that slide through it: none has contact with it
+  Index host_a = -1, host_b = -1;       ///< end nodes of the host element, or twice its own node
 };
 
 struct AssemblyBall {

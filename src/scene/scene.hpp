@@ -104,6 +104,11 @@ enum class RingHost {
   node      ///< its own node with the ring's mass (free, guided or fixed); the normal is constant
 };
 
+enum class RingJoint {
+  contact,  ///< the thread touches the ring's wire, eqs. (3)-(12)
+  sliding   ///< the ring lies inside an element of the thread and slides without friction: sliding_joint.cpp
+};
+
 struct Ring {
   std::string name;
   double diameter = 0;           ///< of the wire's centre line, m
@@ -120,6 +125,7 @@ struct Ring {
   Support support = Support::free;
   Vec3 axis = Vec3::UnitX();         ///< guide axis
   std::vector<std::string> threads;  ///< names of the threads it can touch; empty: every thread
+  RingJoint joint = RingJoint::contact;
   SourceRef source;
 };
 

@@ -87,11 +87,53 @@ std::vector<Index> parts_now(const Model& model, const Assembly& assembly, const
   return parts;
 }
 
+kernel::Joint joint_of(const Model& model, const AssemblyRing& ring, Index number, Index first_element) {
+  kernel::Joint joint{number, ring.host_a, ring.host_b, {}, 0};
+  for (int d = 0; d < 3; ++d) joint.normal[d] = ring.normal[d];
+  joint.opening = ring.radius - ring.wire_radius - model.radius[at(first_element)];
+  return joint;
+}
+
+// The joints of one thread, in their order along it.
+void fill_joints(Model& model, const Assembly& assembly, Index number) {
+  const Part& part = assembly.parts[at(number)];
+  struct Place {
+    double along;
+    Index ring;
+  };
+  std::vector<Place> places;
+  for (std::size_t r = 0; r < assembly.rings.size(); ++r)
+    for (const Threading& threading : assembly.rings[r].threadings)
+      if (threading.part == number && assembly.rings[r].element < model.elements)
+        places.push_back({threading.along, static_cast<Index>(r)});
+  if (places.empty()) return;
+  std::stable_sort(places.begin(), places.end(),
+                   [](const Place& l, const Place& r) { return l.along < r.along; });
+  const auto joint_begin = static_cast<Index>(model.joints.size());
+  for (const Place& place : places) {
+    model.joints.push_back(joint_of(model, assembly.rings[at(place.ring)], place.ring, part.first_element));
+    model.joint_element.push_back(std::clamp(static_cast<Index>(place.along), 0, part.elements - 1));
+  }
+  const auto e = at(part.first_element);
+  model.sliding_first.push_back(part.first_element);
+  model.sliding_threads.push_back({static_cast<Index>(model.sliding_nodes.size()), part.elements, joint_begin,
+                                   static_cast<Index>(model.joints.size()), model.stiffness[e],
+                                   model.damping[e], model.rest_length[e], true});
+  model.sliding_nodes.insert(model.sliding_nodes.end(), part.nodes.begin(), part.nodes.end());
+}
+
+void fill_sliding(Model& model, const Assembly& assembly) {
+  for (std::size_t p = 0; p < assembly.parts.size(); ++p)
+    if (assembly.parts[p].kind == PartKind::thread && assembly.parts[p].first_element < model.elements)
+      fill_joints(model, assembly, static_cast<Index>(p));
+}
+
 // All rings of the scene, or none when no ring has anything to touch in this phase.
 void fill_rings(Model& model, const Assembly& assembly, bool count_once) {
   std::size_t touching = 0;
   for (const AssemblyRing& ring : assembly.rings) touching += parts_now(model, assembly, ring).size();
-  if (touching == 0) return;
+  model.ring_contacts = touching > 0;
+  if (touching == 0 && model.joints.empty()) return;
   for (const AssemblyRing& ring : assembly.rings) {
     kernel::RingGeometry geometry{};
     const std::vector<Index> parts = parts_now(model, assembly, ring);
@@ -110,6 +152,8 @@ void fill_rings(Model& model, const Assembly& assembly, bool count_once) {
     model.rings.push_back(geometry);
     model.ring_wire_radius.push_back(ring.wire_radius);
     model.ring_compliance.push_back(ring.compliance);
+    model.ring_host_length.push_back(ring.element >= 0 ? assembly.elements[at(ring.element)].rest_length : 0);
+    model.ring_slides.push_back(!ring.threadings.empty());
   }
 }
 
@@ -134,6 +178,7 @@ Model build_model(const Assembly& assembly, const Scene& scene, Stage stage) {
   fill_elements(model, assembly, stage);
   model.topology = cut_runs(model.end_a, model.end_b);
   const bool count_once = scene.contact.shared_node == SharedNode::once;
+  fill_sliding(model, assembly);
   fill_rings(model, assembly, count_once);
   fill_balls(model, assembly, count_once);
   if (scene.gravity) {

@@ -54,11 +54,27 @@ struct Model {
     std::vector<Sphere> spheres;
   };
   std::vector<Ball> balls;
+  bool ring_contacts = false;  // some ring feels the contact of a thread
+
+  // sliding joints
+  std::vector<kernel::SlidingThread> sliding_threads;
+  std::vector<Index> sliding_nodes;      // of those threads, one after the other
+  std::vector<Index> sliding_first;      // number of its first element                       sliding thread
+  std::vector<kernel::Joint> joints;     // by thread, in their order along it
+  std::vector<double> ring_host_length;  // unstretched; 0: a node of its own        m        ring
+  std::vector<bool> ring_slides;         //                                                   ring
+  std::vector<Index> joint_element;      // of the thread, where the ring lies at first        joint
 
   bool damped = false;  // some element has a damper
   Vec3 gravity = Vec3::Zero();
   bool has_gravity = false;
 
+  /// Whether threads slide through ring r, which then has no contact.
+  bool slides(std::size_t r) const { return !joints.empty() && ring_slides[r]; }
+  /// Whether element e belongs to the sliding thread t.
+  bool slides_on(std::size_t t, Index e) const {
+    return e >= sliding_first[t] && e < sliding_first[t] + sliding_threads[t].elements;
+  }
   /// Rows of the damper ledger: one for each grain of nodes.
   Index ledger_rows() const { return (nodes + kernel::grain - 1) / kernel::grain; }
 };

@@ -15,6 +15,11 @@ State::State(const Model& model) {
   untouched.stiffest_element = -1;
   rings.assign(model.rings.size(), untouched);
   balls.resize(model.balls.size());
+  for (const Index element : model.joint_element) {
+    kernel::JointState joint{};
+    joint.element = element;
+    joints.push_back(joint);
+  }
   reactions.assign(model.constraints.size(), kernel::Reaction{});
 }
 

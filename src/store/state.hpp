@@ -17,6 +17,7 @@ struct State {
   std::vector<kernel::RingTally> rings;  ///< ring
   std::vector<std::vector<kernel::BallTally>>
       balls;                                ///< ball: of pairs that are over, then of each present pair
+  std::vector<kernel::JointState> joints;   ///< joint
   std::vector<kernel::Reaction> reactions;  ///< constraint
 
   /// Allocates for `model`; all zero, tallies as never touched.

@@ -1,0 +1,470 @@
+// Rings that slide on threads without friction and without a search for contacts.
+//
+// A ring lies inside one element of its thread. The element's length l is that of the shortest way between
+// its nodes through the openings of all its rings (shortest_path.hpp), its tension T = k (l - l0) + c dl/dt,
+// never negative, is the same on both sides of a ring, and all forces are -T dl/dx: by the envelope theorem
+// the waypoints p need not be differentiated. With unit vectors u along the way, from node a over p_1 .. p_m
+// to node b,
+//   T u_1 on a,   T (u_i+1 - u_i) on ring i at p_i,   -T u_m+1 on b.
+// A ring moves rigidly: dp = dC - N (p - C).dN. Its force F goes half to each end of the host, and turns the
+// host by G = -(F.N) (p - C), which the host's ends take as +G/L (b) and -G/L (a), as in ring_contact.cpp.
+//
+// A node passes a ring when the energy of the two elements beside it is lower with the ring on its other
+// side. The stored energy is thus the least of those of neighbouring threadings: it is continuous, and no
+// passing creates any. Its slope jumps, though, somewhere between two steps: at the share s of the step in
+// which the energies cross, by a straight line through them. Central differences take the force at the step's
+// end for half a step before it; with the old force for the share s - 1/2 of the new one the work is right to
+// second order.
+//
+// Elements are computed as straight ones with all the others. What is added here is the difference.
+#include "kernels/contact_item.hpp"
+#include "kernels/kernel_table.hpp"
+#include "kernels/ring_tally.hpp"
+#include "kernels/shortest_path.hpp"
+
+namespace cinch::CINCH_ISA {
+namespace {
+
+using kernel::JointState;
+using kernel::RingTally;
+using kernel::SlidingArguments;
+using kernel::SlidingThread;
+
+// Where a ring is and how it moves.
+struct Host {
+  Opening opening;
+  V3 velocity, turn;      // m/s; dN/dt before projection, 1/s: zero for a ring with a node of its own
+  double inverse_length;  // of the host, 1/m; zero for a ring with a node of its own
+};
+
+// A straight piece of a way.
+struct Leg {
+  V3 unit;        // its direction
+  double length;  // m
+};
+
+// What a call works on, for each joint.
+struct Work {
+  Host host;
+  Leg before_it;  // from the last waypoint (or node) to this one
+  Leg last,
+      straight;     // of the first joint in an element: from the last waypoint to the node; from node to node
+  V3 force;         // on the ring, N
+  bool idle;        // of the first joint in an element: its rings change nothing of its pull
+  JointState old;   // as it stood before nodes passed
+  JointState kept;  // as it stood before a passing was tried
+};
+static_assert(sizeof(Work) <= kernel::sliding_scratch * sizeof(double));
+
+inline V3 vec(const double (&v)[3]) { return {v[0], v[1], v[2]}; }
+
+inline void put(V3 v, double (&to)[3]) { to[0] = v.x, to[1] = v.y, to[2] = v.z; }
+
+// Where forces go.
+struct SlidingWriter {
+  LoadWriter threads, hosts;
+};
+
+// One thread in one step.
+struct Slide {
+  const SlidingArguments& g;
+  const SlidingThread& thread;
+  Work* work;  // joint
+
+  JointState& state(Index j) const { return g.states[j]; }
+  Index node(Index k) const { return g.nodes[thread.node_begin + k]; }
+  V3 place(Index k) const { return at(g.contact.x, g.contact.y, g.contact.z, node(k)); }
+  V3 speed(Index k) const { return at(g.contact.vx, g.contact.vy, g.contact.vz, node(k)); }
+  V3 waypoint(Index j) const { return work[j].host.opening.center + vec(state(j).offset); }
+  double stored(double length) const {
+    const double stretch = length - thread.rest_length;
+    return stretch > 0 ? 0.5 * thread.stiffness * stretch * stretch : 0.0;
+  }
+  // The first joint behind those that lie in the element of joint j.
+  Index behind(Index j) const {
+    const Index element = state(j).element;
+    while (j < thread.joint_end && state(j).element == element) ++j;
+    return j;
+  }
+  // Squared lift between two rings of one element.
+  double lift2(Index j) const {
+    const double lift = (work[j].host.opening.radius + work[j + 1].host.opening.radius) / 32;
+    return lift * lift;
+  }
+};
+
+inline Host host_of(const kernel::ContactArguments& c, const kernel::Joint& joint) {
+  const V3 xa = at(c.x, c.y, c.z, joint.host_a), va = at(c.vx, c.vy, c.vz, joint.host_a);
+  if (joint.host_a == joint.host_b) return {{xa, vec(joint.normal), joint.opening}, va, {0, 0, 0}, 0};
+  const V3 xb = at(c.x, c.y, c.z, joint.host_b), vb = at(c.vx, c.vy, c.vz, joint.host_b);
+  const V3 along = xb - xa;
+  const double length = norm(along), inverse = length > 0 ? 1 / length : 0.0;
+  return {{0.5 * (xa + xb), inverse * along, joint.opening}, 0.5 * (va + vb), inverse * (vb - va), inverse};
+}
+
+// ---- the way through the rings of one element
+
+// Joints [first, last) in an element.
+struct Group {
+  Index element, first, last;
+};
+
+inline Leg leg(V3 from, V3 to, double lift2) {
+  const V3 d = to - from;
+  const double length = std::sqrt(dot(d, d) + lift2);
+  return {length > 1e-12 ? (1 / length) * d : V3{0, 0, 0}, length};  // as shortest_path.hpp has it
+}
+
+// One round over the waypoints of several joints; returns the greatest squared change of one.
+inline double round_of_waypoints(const Slide& s, const Group& group, V3 a, V3 b) {
+  double change = 0;
+  for (Index j = group.first; j < group.last; ++j) {
+    const Neighbour from = j == group.first ? Neighbour{a, 0} : Neighbour{s.waypoint(j - 1), s.lift2(j - 1)};
+    const Neighbour to = j + 1 == group.last ? Neighbour{b, 0} : Neighbour{s.waypoint(j + 1), s.lift2(j)};
+    const V3 old = vec(s.state(j).offset),
+             now = shortest_passage(s.work[j].host.opening, from, to, old).offset;
+    const V3 d = now - old;
+    put(now, s.state(j).offset);
+    change = dot(d, d) > change ? dot(d, d) : change;
+  }
+  return change;
+}
+
+// Waypoint after waypoint: each round shortens a function that is convex in all of them. A waypoint wrong by
+// e makes the length wrong by e^2 over that of a leg.
+inline void find_waypoints(const Slide& s, const Group& group, V3 a, V3 b) {
+  constexpr int most_rounds = 40;
+  const double close = 1e-4 * s.work[group.first].host.opening.radius;
+  for (int i = 0; i < most_rounds; ++i)
+    if (round_of_waypoints(s, group, a, b) <= close * close) break;
+}
+
+// The length of the way through the rings' centres: never shorter than the shortest one.
+inline double length_by_centers(const Slide& s, const Group& group, V3 a, V3 b) {
+  V3 from = a;
+  double length = 0;
+  for (Index j = group.first; j < group.last; ++j) {
+    const V3 to = s.work[j].host.opening.center, d = to - from;
+    length += std::sqrt(dot(d, d) + (j == group.first ? 0.0 : s.lift2(j - 1)));
+    from = to;
+  }
+  return length + norm(b - from);
+}
+
+// Finds legs and length of a group from its waypoints.
+inline void measure_way(const Slide& s, const Group& group, V3 a, V3 b, bool straight) {
+  Work& first = s.work[group.first];
+  first.straight = leg(a, b, 0);
+  V3 from = a;
+  double length = 0;
+  for (Index j = group.first; j < group.last; ++j) {
+    const V3 to = s.waypoint(j);
+    s.work[j].before_it = leg(from, to, j == group.first ? 0.0 : s.lift2(j - 1));
+    length += s.work[j].before_it.length;
+    from = to;
+  }
+  first.last = leg(from, b, 0);
+  length = straight ? first.straight.length : length + first.last.length;
+  if (straight) first.before_it.unit = first.last.unit = first.straight.unit;
+  for (Index j = group.first; j < group.last; ++j) s.state(j).length = length;
+}
+
+// Finds the way of a group. In a step, nobody asks for that of one that is straight or, by the rings'
+// centres, slack: it pulls as without rings, and to lose one would free no energy.
+inline void find_way(const Slide& s, const Group& group) {
+  const V3 a = s.place(group.element), b = s.place(group.element + 1);
+  Work& first = s.work[group.first];
+  const bool step = s.g.contact.dt > 0;
+  first.idle = step && length_by_centers(s, group, a, b) <= s.thread.rest_length;
+  if (first.idle) return;
+  bool straight = false;
+  if (group.last == group.first + 1) {
+    const Passage passage =
+        shortest_passage(first.host.opening, {a, 0}, {b, 0}, vec(s.state(group.first).offset));
+    put(passage.offset, s.state(group.first).offset);
+    straight = passage.straight;
+  } else {
+    find_waypoints(s, group, a, b);
+  }
+  first.idle = step && straight;
+  if (!first.idle) measure_way(s, group, a, b, straight);
+}
+
+// ---- nodes that pass
+
+inline double length_of(const Slide& s, const Group& group) {
+  if (group.first < group.last && !s.work[group.first].idle) return s.state(group.first).length;
+  return norm(s.place(group.element + 1) - s.place(group.element));
+}
+
+inline Group group_of(const Slide& s, Index first) {
+  return {s.state(first).element, first, s.behind(first)};
+}
+
+// The joints of the elements beside that of a group.
+inline Group next_group(const Slide& s, const Group& group) {
+  const bool filled = group.last < s.thread.joint_end && s.state(group.last).element == group.element + 1;
+  return {group.element + 1, group.last, filled ? s.behind(group.last) : group.last};
+}
+inline Group last_group(const Slide& s, const Group& group) {
+  Index first = group.first;
+  while (first > s.thread.joint_begin && s.state(first - 1).element == group.element - 1) --first;
+  return {group.element - 1, first, group.first};
+}
+
+// No way through ring j and from end to end of the element is shorter than this.
+inline double least_length(const Slide& s, Index element, Index j) {
+  const V3 a = s.place(element), b = s.place(element + 1);
+  const Opening& o = s.work[j].host.opening;
+  const double way = norm(a - o.center) + norm(b - o.center) - 2 * o.radius, straight = norm(b - a);
+  return way > straight ? way : straight;
+}
+
+// Ring j, at the end of `from`, goes to `to` if that lowers the energy.
+bool try_passing(const Slide& s, const Group& from, const Group& to, Index j) {
+  const double energy_from = s.stored(length_of(s, from)), energy_to = s.stored(length_of(s, to));
+  const double freed = energy_from - s.stored(s.work[from.first].straight.length);  // at most
+  if (!(freed > 0)) return false;
+  if (s.stored(least_length(s, to.element, j)) - energy_to >= freed) return false;
+  const bool onward = to.element > from.element;
+  const Group left{from.element, onward ? from.first : from.first + 1, onward ? from.last - 1 : from.last};
+  const Group entered{to.element, onward ? j : to.first, onward ? to.last : j + 1};
+  const Index first = onward ? from.first : to.first, last = onward ? to.last : from.last;
+  for (Index i = first; i < last; ++i) s.work[i].kept = s.state(i);
+  s.state(j).element = to.element;
+  if (left.first < left.last) find_way(s, left);
+  find_way(s, entered);
+  if (s.stored(length_of(s, left)) + s.stored(length_of(s, entered)) < energy_from + energy_to) {
+    ++s.state(j).passes;
+    return true;
+  }
+  for (Index i = first; i < last; ++i) s.state(i) = s.work[i].kept;
+  find_way(s, from);
+  if (to.first < to.last) find_way(s, to);
+  return false;
+}
+
+// The first passing that lowers the energy.
+bool pass_one(const Slide& s) {
+  for (Index first = s.thread.joint_begin; first < s.thread.joint_end;) {
+    const Group group = group_of(s, first);
+    if (!s.work[first].idle && s.stored(s.state(first).length) > 0) {
+      if (group.element + 1 < s.thread.elements &&
+          try_passing(s, group, next_group(s, group), group.last - 1))
+        return true;
+      if (group.element > 0 && try_passing(s, group, last_group(s, group), group.first)) return true;
+    }
+    first = group.last;
+  }
+  return false;
+}
+
+// Passes nodes until no passing lowers the energy; returns whether one did. What a step leaves over is done
+// by the next.
+bool pass_nodes(const Slide& s) {
+  const Index most = 4 * (s.thread.joint_end - s.thread.joint_begin) + 4;
+  Index count = 0;
+  while (count < most && pass_one(s)) ++count;
+  return count > 0;
+}
+
+// ---- forces
+
+// What an element with rings, or the same element as a straight one, pulls with.
+struct Pull {
+  double spring = 0, tension = 0, rate = 0;  // N, N, m/s
+  double energy = 0;                         // J
+
+  Pull(const Slide& s, double length, double length_rate) {
+    const double stretch = length - s.thread.rest_length;
+    if (!(stretch > 0)) return;
+    rate = length_rate;
+    spring = s.thread.stiffness * stretch;
+    const double pull = spring + s.thread.damping * rate;
+    tension = pull > 0 ? pull : 0.0;
+    energy = 0.5 * spring * stretch;
+  }
+  double power() const { return (tension - spring) * rate; }
+};
+
+// What some elements with rings have beyond straight ones.
+struct Beyond {
+  double energy = 0, rate = 0, power = 0;  // J; W, of the energy; W, dissipated
+
+  void add(const Pull& with, const Pull& straight, double weight) {
+    energy += weight * (with.energy - straight.energy);
+    rate += weight * (with.spring * with.rate - straight.spring * straight.rate);
+    power += weight * (with.power() - straight.power());
+  }
+};
+
+// The unit vector with which the way leaves the waypoint of joint j in `group`.
+inline V3 onward_direction(const Slide& s, const Group& group, Index j) {
+  return j + 1 == group.last ? s.work[group.first].last.unit : s.work[j + 1].before_it.unit;
+}
+
+// dp/dt of a point of the opening that moves with the ring.
+inline V3 waypoint_velocity(const Host& host, V3 offset) {
+  return host.velocity - dot(offset, host.turn) * host.opening.normal;
+}
+
+inline double length_rate(const Slide& s, const Group& group) {
+  V3 in = s.work[group.first].before_it.unit;
+  double rate = -dot(in, s.speed(group.element));
+  for (Index j = group.first; j < group.last; ++j) {
+    const V3 out = onward_direction(s, group, j);
+    rate += dot(in - out, waypoint_velocity(s.work[j].host, vec(s.state(j).offset)));
+    in = out;
+  }
+  return rate + dot(in, s.speed(group.element + 1));
+}
+
+// The force of joint j on its ring and on the ring's host.
+inline void load_ring(const Slide& s, Index j, V3 force, SlidingWriter& out) {
+  const kernel::Joint& joint = s.g.joints[j];
+  const Host& host = s.work[j].host;
+  const V3 couple = -dot(force, host.opening.normal) * vec(s.state(j).offset);
+  s.work[j].force = s.work[j].force + force;
+  if (joint.host_a == joint.host_b) {
+    out.hosts.add(joint.host_a, force);
+    if (RingTally* const tally = s.g.tallies[joint.ring]) {  // the support takes the couple
+      const V3 torque = s.g.contact.dt * cross(host.opening.normal, couple);
+      tally->couple_impulse[0] += torque.x, tally->couple_impulse[1] += torque.y;
+      tally->couple_impulse[2] += torque.z;
+    }
+    return;
+  }
+  const V3 turn = host.inverse_length * couple;
+  out.hosts.add(joint.host_a, 0.5 * force - turn);
+  out.hosts.add(joint.host_b, 0.5 * force + turn);
+}
+
+// Material coordinates of the rings of a group: thread is stretched evenly.
+inline void note_places(const Slide& s, const Group& group) {
+  const double length = s.state(group.first).length, share = length > 0 ? 1 / length : 0.0;
+  double way = 0;
+  for (Index j = group.first; j < group.last; ++j) {
+    way += share * s.work[j].before_it.length;
+    s.state(j).along = s.thread.rest_length * (group.element + (way < 1 ? way : 1.0));
+  }
+}
+
+// How a group pulls, and how its element would without rings.
+struct Pulls {
+  Pull with, without;
+};
+
+inline Pulls pulls_of(const Slide& s, const Group& group) {
+  const Leg& straight = s.work[group.first].straight;
+  const double rate = dot(straight.unit, s.speed(group.element + 1) - s.speed(group.element));
+  return {Pull(s, s.state(group.first).length, length_rate(s, group)), Pull(s, straight.length, rate)};
+}
+
+// A slack group pulls at nothing.
+inline void rest_group(const Slide& s, const Group& group) {
+  for (Index j = group.first; j < group.last; ++j) s.state(j).tension = 0, s.state(j).energy = 0;
+}
+
+// Adds `weight` times the forces of a group, as its joints stand.
+void load_group(const Slide& s, const Group& group, double weight, Beyond& beyond, SlidingWriter& out) {
+  if (s.work[group.first].idle) return rest_group(s, group);
+  const Pulls pulls = pulls_of(s, group);
+  const double tension = pulls.with.tension;
+  beyond.add(pulls.with, pulls.without, weight);
+  note_places(s, group);
+  for (Index j = group.first; j < group.last; ++j) s.state(j).tension = tension, s.state(j).energy = 0;
+  s.state(group.first).energy = pulls.with.energy - pulls.without.energy;
+  if (!(tension > 0 || pulls.without.tension > 0)) return;
+  const V3 straight = pulls.without.tension * s.work[group.first].straight.unit;
+  V3 in = s.work[group.first].before_it.unit;
+  out.threads.add(s.node(group.element), weight * (tension * in - straight));
+  for (Index j = group.first; j < group.last; ++j) {
+    const V3 next = onward_direction(s, group, j);
+    load_ring(s, j, (weight * tension) * (next - in), out);
+    in = next;
+  }
+  out.threads.add(s.node(group.element + 1), weight * (straight - tension * in));
+}
+
+void load_thread(const Slide& s, double weight, Beyond& beyond, SlidingWriter& out) {
+  for (Index j = s.thread.joint_begin; j < s.thread.joint_end; j = s.behind(j))
+    load_group(s, group_of(s, j), weight, beyond, out);
+}
+
+Beyond beyond_straight(const Slide& s) {
+  Beyond sum;
+  for (Index j = s.thread.joint_begin; j < s.thread.joint_end; j = s.behind(j)) {
+    if (s.work[j].idle) continue;
+    const Pulls pulls = pulls_of(s, group_of(s, j));
+    sum.add(pulls.with, pulls.without, 1);
+  }
+  return sum;
+}
+
+// Exchanges the threading of this step with that before nodes passed.
+inline void swap_threadings(const Slide& s) {
+  for (Index j = s.thread.joint_begin; j < s.thread.joint_end; ++j) {
+    const JointState now = s.state(j);
+    s.state(j) = s.work[j].old;
+    s.work[j].old = now;
+  }
+  for (Index j = s.thread.joint_begin; j < s.thread.joint_end; j = s.behind(j)) find_way(s, group_of(s, j));
+}
+
+// Nodes have passed since the last step: mixes the forces of both threadings as the head of this file says.
+void load_passing_thread(const Slide& s, Beyond& beyond, SlidingWriter& out) {
+  const Beyond now = beyond_straight(s);
+  swap_threadings(s);
+  const Beyond then = beyond_straight(s);
+  const double gap = now.energy - then.energy, change = s.g.contact.step * (now.rate - then.rate);
+  double share = change < 0 ? 1 - gap / change : 0.5;  // of the step, where the gap was zero
+  share = share > 0 ? share < 1 ? share : 1.0 : 0.0;
+  const double old = share - 0.5;
+  load_thread(s, old, beyond, out);
+  swap_threadings(s);
+  load_thread(s, 1 - old, beyond, out);
+}
+
+// ---- a step
+
+// Waypoints, passings and forces of one thread. Without a step (dt = 0) no node passes.
+void slide_thread(const SlidingArguments& g, const SlidingThread& thread, SlidingWriter& out) {
+  const Slide s{g, thread, reinterpret_cast<Work*>(g.scratch)};
+  for (Index j = thread.joint_begin; j < thread.joint_end; ++j) {
+    s.work[j].host = host_of(g.contact, g.joints[j]);
+    s.work[j].force = {0, 0, 0};
+  }
+  for (Index j = thread.joint_begin; j < thread.joint_end; j = s.behind(j)) find_way(s, group_of(s, j));
+  for (Index j = thread.joint_begin; j < thread.joint_end; ++j) s.work[j].old = s.state(j);
+  Beyond beyond;
+  if (g.contact.dt > 0 && pass_nodes(s)) load_passing_thread(s, beyond, out);
+  else load_thread(s, 1, beyond, out);
+  if (thread.booked) s.state(thread.joint_begin).dissipated += g.contact.dt * beyond.power;
+}
+
+void note_forces(const SlidingArguments& g) {
+  const Work* const work = reinterpret_cast<const Work*>(g.scratch);
+  const auto for_each_tally = [&](auto&& visit) {
+    for (Index t = 0; t < g.thread_count; ++t)
+      for (Index j = g.threads[t].joint_begin; j < g.threads[t].joint_end; ++j)
+        if (RingTally* const tally = g.tallies[g.joints[j].ring]) visit(*tally, work[j].force);
+  };
+  for_each_tally([](RingTally& tally, V3) { tally.force[0] = tally.force[1] = tally.force[2] = 0; });
+  for_each_tally(
+      [](RingTally& tally, V3 f) { tally.force[0] += f.x, tally.force[1] += f.y, tally.force[2] += f.z; });
+  for_each_tally([&](RingTally& tally, V3) { note_force(tally, norm(vec(tally.force)), g.contact.time); });
+}
+
+kernel::SlidingLoads sliding_joints(const SlidingArguments& g, kernel::Load* on_threads,
+                                    kernel::Load* on_hosts) {
+  SlidingWriter out{{on_threads}, {on_hosts}};
+  for (Index t = 0; t < g.thread_count; ++t) slide_thread(g, g.threads[t], out);
+  note_forces(g);
+  return {static_cast<Index>(out.threads.next - on_threads), static_cast<Index>(out.hosts.next - on_hosts)};
+}
+
+}  // namespace
+
+void fill_sliding_joint(KernelTable& table) { table.sliding_joints = sliding_joints; }
+
+}  // namespace cinch::CINCH_ISA

@@ -1,0 +1,57 @@
+// The sliding joints that one thread evaluates: those of threads of which it has a node, or that pass through
+// a ring of whose host it has one.
+#pragma once
+#include <functional>
+#include <span>
+#include <vector>
+
+#include "kernels/kernel_table.hpp"
+#include "plan/near_contacts.hpp"
+#include "store/state.hpp"
+
+namespace cinch {
+
+class SlidingJoints {
+ public:
+  /// All joints of the scene, in the user's numbers.
+  void take_all(const Model& model);
+  /// Those that put a force on a node for which `own` holds.
+  void take_share(const Model& model, const std::function<bool(Index)>& own);
+  /// All nodes that they need, in the user's numbers.
+  std::vector<Index> nodes_needed() const;
+  /// From users' numbers to those of a piece.
+  void renumber(const std::function<Index(Index)>& local);
+
+  bool empty() const { return threads_.empty(); }
+  /// Begins with the joints as they stand in `state`, which books their rings until the next call.
+  void take(State& state);
+  /// Hands back the joints that are booked here.
+  void give(State& state) const;
+  /// Hands back what they feel, but not how they moved: after an evaluation that was but a look.
+  void tell(State& state) const;
+
+  /// Evaluates at `time` and books over `booked_dt` s. With 0 no node passes a ring.
+  void evaluate(const NodeView& nodes, const StepPlan& plan, double time, double booked_dt);
+  /// What nodes of threads take beside the force of straight elements; forces of the rings on their hosts.
+  std::span<const kernel::Load> on_threads() const { return {on_threads_.data(), count(counts_.threads)}; }
+  std::span<const kernel::Load> on_hosts() const { return {on_hosts_.data(), count(counts_.hosts)}; }
+
+ private:
+  void add_thread(const Model& model, std::size_t thread, bool booked);
+  void make_room(const Model& model);
+  static std::size_t count(Index n) { return static_cast<std::size_t>(n); }
+
+  const KernelTable* kernels_ = &kernels();
+  std::vector<kernel::SlidingThread> threads_;
+  std::vector<Index> nodes_;
+  std::vector<kernel::Joint> joints_;
+  std::vector<Index> number_;     ///< joint: its number in the scene
+  std::vector<bool> books_ring_;  ///< ring
+  std::vector<kernel::JointState> states_;
+  std::vector<kernel::RingTally*> tallies_;  ///< ring
+  AlignedVector<double> scratch_;
+  std::vector<kernel::Load> on_threads_, on_hosts_;  ///< room for all
+  kernel::SlidingLoads counts_{0, 0};
+};
+
+}  // namespace cinch

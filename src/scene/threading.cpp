@@ -1,0 +1,97 @@
+#include "scene/threading.hpp"
+
+#include <cstdio>
+
+#include "scene/fault.hpp"
+
+namespace cinch {
+namespace {
+
+constexpr std::size_t at(Index i) { return static_cast<std::size_t>(i); }
+
+double radius_of(const Assembly& assembly, const Part& thread) {
+  return assembly.elements[at(thread.first_element)].radius;
+}
+
+double opening(const Assembly& assembly, const AssemblyRing& ring, const Part& thread) {
+  return ring.radius - ring.wire_radius - radius_of(assembly, thread);
+}
+
+void check_opening(const Assembly& assembly, const AssemblyRing& ring, const Part& thread,
+                   const SourceRef& source) {
+  if (opening(assembly, ring, thread) > 0) return;
+  char text[300];
+  std::snprintf(text, sizeof text,
+                "ring '%s': its opening of %.6g m leaves no room for thread '%s' of %.6g m, as joint = "
+                "\"sliding\" needs",
+                ring.name.c_str(), 2 * (ring.radius - ring.wire_radius), thread.name.c_str(),
+                2 * radius_of(assembly, thread));
+  fail(source, text);
+}
+
+// Where a thread crosses the ring's plane inside its opening, in elements from its start.
+std::vector<double> crossings(const Assembly& assembly, const AssemblyRing& ring, const Part& thread) {
+  const auto place = [&](Index node) { return assembly.nodes[at(node)].position; };
+  const Vec3 center = 0.5 * (place(ring.host_a) + place(ring.host_b));
+  const Vec3 normal =
+      ring.element < 0 ? ring.normal : Vec3((place(ring.host_b) - place(ring.host_a)).normalized());
+  std::vector<double> found;
+  for (std::size_t k = 0; k + 1 < thread.nodes.size(); ++k) {
+    const Vec3 a = place(thread.nodes[k]) - center, b = place(thread.nodes[k + 1]) - center;
+    const double axial_a = normal.dot(a), axial_b = normal.dot(b);
+    if ((axial_a < 0) == (axial_b < 0)) continue;
+    const double t = axial_a / (axial_a - axial_b);
+    if (((1 - t) * a + t * b).norm() <= opening(assembly, ring, thread))
+      found.push_back(static_cast<double>(k) + t);
+  }
+  return found;
+}
+
+// Where a thread passes through a ring, in elements from its start.
+std::vector<double> places_in_ring(const Assembly& assembly, const std::map<Index, LaidAlong>& carriers,
+                                   const AssemblyRing& ring, Index number) {
+  const Part& thread = assembly.parts[at(number)];
+  if (const auto laid = carriers.find(number); laid != carriers.end())
+    if (const double reach = laid->second.carrier.middle_of(ring.host_a, ring.host_b); reach >= 0)
+      return {(laid->second.overhang + reach) / laid->second.length * thread.elements};
+  return crossings(assembly, ring, thread);
+}
+
+void thread_ring(const Ring& spec, const std::map<Index, LaidAlong>& carriers, const Assembly& assembly,
+                 AssemblyRing& ring) {
+  for (const Index number : ring.parts) {
+    const Part& thread = assembly.parts[at(number)];
+    check_opening(assembly, ring, thread, spec.source);
+    const std::vector<double> places = places_in_ring(assembly, carriers, ring, number);
+    const std::string words = "ring '" + ring.name + "': thread '" + thread.name + "' ";
+    if (places.size() > 1)
+      fail(spec.source, words + "passes through it " + std::to_string(places.size()) +
+                            " times, allowed with joint = \"sliding\": once");
+    if (places.empty() && !spec.threads.empty())
+      fail(spec.source,
+           words +
+               "does not pass through it, as joint = \"sliding\" needs; allowed: threads that cross the "
+               "ring's plane inside its opening");
+    if (!places.empty()) ring.threadings.push_back({number, places.front()});
+  }
+  if (ring.threadings.empty())
+    fail(spec.source, "ring '" + ring.name + "': no thread passes through it, as joint = \"sliding\" needs");
+  ring.parts.clear();
+}
+
+}  // namespace
+
+double Carrier::middle_of(Index a, Index b) const {
+  for (std::size_t n = 1; n < nodes.size(); ++n)
+    if ((nodes[n - 1] == a && nodes[n] == b) || (nodes[n - 1] == b && nodes[n] == a))
+      return 0.5 * (reach[n - 1] + reach[n]);
+  return -1;
+}
+
+void thread_rings(const Scene& scene, const std::map<Index, LaidAlong>& carriers, Assembly& assembly) {
+  for (std::size_t r = 0; r < scene.rings.size(); ++r)
+    if (scene.rings[r].joint == RingJoint::sliding)
+      thread_ring(scene.rings[r], carriers, assembly, assembly.rings[r]);
+}
+
+}  // namespace cinch
