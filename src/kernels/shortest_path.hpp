@@ -115,7 +115,7 @@ inline V3 walk_to_rim(const Opening& o, const Seen& q, const Seen& r) {
 inline bool leads_outwards(const Opening& o, const Seen& q, const Seen& r, V3 e) {
   const V3 p = o.radius * e;
   const double iq = inverse_distance(q, p), ir = inverse_distance(r, p);
-  return dot(e, iq * q.across + ir * r.across) >= o.radius * (iq + ir) * (1 - 1e-9);
+  return dot(e, iq * q.across + ir * r.across) >= o.radius * (iq + ir) * (1 - 1e-4);
 }
 
 inline V3 rim_point(const Opening& o, const Seen& q, const Seen& r, V3 guess) {

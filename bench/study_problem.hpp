@@ -1,0 +1,48 @@
+// The problems of the study of error against run time: how each is set up, what is compared, by which
+// measure.
+#pragma once
+#include <functional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "plan/simulation.hpp"
+
+namespace cinch::study {
+
+/// One way to compute a problem.
+struct Setting {
+  std::string method;          ///< "contact", "contact, paper's rules" or "sliding"
+  int elements = 0;            ///< of each thread that slides
+  double step = 0;             ///< s; 0: `fraction` of the stable step
+  double fraction = 0;         ///< of the stable step
+  bool papers = false;         ///< the paper's own choice
+  std::string series() const;  ///< what it shares with others of one curve
+};
+
+/// What is compared, sample after sample; as many numbers in each.
+struct Track {
+  std::vector<std::vector<double>> samples;
+};
+
+using Errors = std::vector<std::pair<std::string, double>>;
+
+struct Problem {
+  std::string name, title;
+  std::string measure;  ///< of the first of its errors, in words
+  double end = 0;       ///< s
+  int samples = 0;      ///< until then
+  std::function<Scene(const Setting&)> scene;
+  std::function<std::vector<double>(Simulation&)> sample;
+  std::function<Errors(const Track& found, const Track& reference)>
+      errors;                      ///< shares of 1, the first counts
+  std::vector<Setting> reference;  ///< whose mean is the reference
+  std::vector<Setting> settings;
+};
+
+/// Sec. 5.1: a thread pulls a ring.
+Problem ring_pull(bool full);
+/// Sec. 5.3 without what is chaotic in it: the deployed net closes without a target.
+Problem net_closing(bool full);
+
+}  // namespace cinch::study

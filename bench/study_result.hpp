@@ -1,0 +1,43 @@
+// What a study finds: runs with error and run time, which are the best, how fast errors fall.
+#pragma once
+#include <filesystem>
+
+#include "study_problem.hpp"
+
+namespace cinch::study {
+
+struct RunResult {
+  Setting setting;
+  double step = 0;      ///< s, as taken
+  Errors errors;        ///< shares of 1
+  double residual = 0;  ///< of the energy ledger, relative
+  double seconds = 0;   ///< of run time for one simulated second
+  std::string failure;  ///< why there is no result; else empty
+  double error() const { return errors.front().second; }
+  bool good() const { return failure.empty(); }
+};
+
+struct ProblemResult {
+  const Problem* problem = nullptr;
+  double reference_error = 0;  ///< greatest error of a run of the reference against their mean
+  std::vector<RunResult> runs;
+};
+
+/// The run that takes least time among those within `error`; null where there is none. An error below that of
+/// the reference is not told from zero.
+const RunResult* best_within(const ProblemResult& result, double error);
+
+/// Order of a series: slope of log error over log element length, by least squares; not a number for fewer
+/// than three runs.
+double observed_order(const ProblemResult& result, const std::string& series);
+
+/// All different series, in their order.
+std::vector<std::string> series_of(const ProblemResult& result);
+
+/// Writes study.json and study.csv; throws FileError.
+void write(const std::vector<ProblemResult>& results, const std::filesystem::path& folder);
+
+/// The errors for which the best setting is named.
+inline constexpr double wanted_errors[] = {0.1, 0.03, 0.01, 0.003};
+
+}  // namespace cinch::study
