@@ -148,10 +148,9 @@ struct Bench {  // a thread with rings, in arrays of its own
     const kernel::ContactArguments contact{x[0].data(), x[1].data(), x[2].data(), v[0].data(),
                                            v[1].data(), v[2].data(), nullptr,     0,
                                            0,           dt,          1e-6};
-    const kernel::SlidingLoads counts =
-        kernels().sliding_joints({contact, nodes.data(), &thread, 1, joints.data(), states.data(),
-                                  books.data(), static_cast<Index>(books.size()), scratch.data()},
-                                 on_threads.data(), on_hosts.data());
+    const kernel::SlidingLoads counts = kernels().sliding_joints(
+        {contact, nodes.data(), &thread, 1, joints.data(), states.data(), books.data(), scratch.data()},
+        on_threads.data(), on_hosts.data());
     on_threads.resize(at(counts.threads));
     on_hosts.resize(at(counts.hosts));
   }

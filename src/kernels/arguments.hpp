@@ -9,7 +9,7 @@ constexpr Index block_size = 2048;  ///< nodes that are computed and moved toget
 constexpr Index grain = 128;        ///< nodes whose elements share one row of the ledger; whole groups
 constexpr Index lanes = 8;          ///< nodes and elements go in groups of so many, whatever the vector width
 constexpr Index ring_scratch = 3584;   ///< numbers that a batch of ring contacts works on
-constexpr Index sliding_scratch = 64;  ///< numbers a joint that sliding joints work on
+constexpr Index sliding_scratch = 72;  ///< numbers a joint that sliding joints work on
 constexpr Index max_terms = 3;         ///< element forces on a node that one pass adds up, in pairs (+, -)
 
 /// Elements whose lower ends are the nodes of whole groups from `node` on; the upper ends lie `step` nodes
@@ -215,7 +215,6 @@ struct SlidingArguments {
   const Joint* joints;
   JointState* states;         ///< joint
   RingTally* const* tallies;  ///< ring: where it is booked, or null
-  Index ring_count;
   double* scratch;  ///< sliding_scratch numbers a joint, of which only this call knows what they mean
 };
 

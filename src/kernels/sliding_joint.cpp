@@ -43,16 +43,22 @@ struct Leg {
   double length;  // m
 };
 
+// The way through the rings of one element.
+struct Way {
+  Leg before_it;  // from the last waypoint (or node) to the joint's
+  // of the first joint in an element:
+  Leg last, straight;  // from the last waypoint to the node; from node to node
+  bool idle;           // its rings change nothing of its pull
+};
+
 // What a call works on, for each joint.
 struct Work {
   Host host;
-  Leg before_it;  // from the last waypoint (or node) to this one
-  Leg last,
-      straight;     // of the first joint in an element: from the last waypoint to the node; from node to node
+  Way way;
   V3 force;         // on the ring, N
-  bool idle;        // of the first joint in an element: its rings change nothing of its pull
   JointState old;   // as it stood before nodes passed
   JointState kept;  // as it stood before a passing was tried
+  Way kept_way;
 };
 static_assert(sizeof(Work) <= kernel::sliding_scratch * sizeof(double));
 
@@ -153,14 +159,14 @@ inline double length_by_centers(const Slide& s, const Group& group, V3 a, V3 b) 
 
 // Finds legs and length of a group from its waypoints.
 inline void measure_way(const Slide& s, const Group& group, V3 a, V3 b, bool straight) {
-  Work& first = s.work[group.first];
+  Way& first = s.work[group.first].way;
   first.straight = leg(a, b, 0);
   V3 from = a;
   double length = 0;
   for (Index j = group.first; j < group.last; ++j) {
     const V3 to = s.waypoint(j);
-    s.work[j].before_it = leg(from, to, j == group.first ? 0.0 : s.lift2(j - 1));
-    length += s.work[j].before_it.length;
+    s.work[j].way.before_it = leg(from, to, j == group.first ? 0.0 : s.lift2(j - 1));
+    length += s.work[j].way.before_it.length;
     from = to;
   }
   first.last = leg(from, b, 0);
@@ -173,14 +179,14 @@ inline void measure_way(const Slide& s, const Group& group, V3 a, V3 b, bool str
 // centres, slack: it pulls as without rings, and to lose one would free no energy.
 inline void find_way(const Slide& s, const Group& group) {
   const V3 a = s.place(group.element), b = s.place(group.element + 1);
-  Work& first = s.work[group.first];
+  Way& first = s.work[group.first].way;
   const bool step = s.g.contact.dt > 0;
   first.idle = step && length_by_centers(s, group, a, b) <= s.thread.rest_length;
   if (first.idle) return;
   bool straight = false;
   if (group.last == group.first + 1) {
     const Passage passage =
-        shortest_passage(first.host.opening, {a, 0}, {b, 0}, vec(s.state(group.first).offset));
+        shortest_passage(s.work[group.first].host.opening, {a, 0}, {b, 0}, vec(s.state(group.first).offset));
     put(passage.offset, s.state(group.first).offset);
     straight = passage.straight;
   } else {
@@ -193,7 +199,7 @@ inline void find_way(const Slide& s, const Group& group) {
 // ---- nodes that pass
 
 inline double length_of(const Slide& s, const Group& group) {
-  if (group.first < group.last && !s.work[group.first].idle) return s.state(group.first).length;
+  if (group.first < group.last && !s.work[group.first].way.idle) return s.state(group.first).length;
   return norm(s.place(group.element + 1) - s.place(group.element));
 }
 
@@ -220,27 +226,53 @@ inline double least_length(const Slide& s, Index element, Index j) {
   return way > straight ? way : straight;
 }
 
-// Ring j, at the end of `from`, goes to `to` if that lowers the energy.
-bool try_passing(const Slide& s, const Group& from, const Group& to, Index j) {
-  const double energy_from = s.stored(length_of(s, from)), energy_to = s.stored(length_of(s, to));
-  const double freed = energy_from - s.stored(s.work[from.first].straight.length);  // at most
-  if (!(freed > 0)) return false;
-  if (s.stored(least_length(s, to.element, j)) - energy_to >= freed) return false;
-  const bool onward = to.element > from.element;
-  const Group left{from.element, onward ? from.first : from.first + 1, onward ? from.last - 1 : from.last};
-  const Group entered{to.element, onward ? j : to.first, onward ? to.last : j + 1};
-  const Index first = onward ? from.first : to.first, last = onward ? to.last : from.last;
-  for (Index i = first; i < last; ++i) s.work[i].kept = s.state(i);
-  s.state(j).element = to.element;
+// How much longer than its thread an element is, for a length of its way.
+inline double stretch(const Slide& s, double length) {
+  return length > s.thread.rest_length ? length - s.thread.rest_length : 0.0;
+}
+
+// Ring j, at the end of `from`, goes to `to`.
+struct Passing {
+  Group from, to;
+  Index j;
+  bool onward() const { return to.element > from.element; }
+  Group left() const {
+    return {from.element, onward() ? from.first : from.first + 1, onward() ? j : from.last};
+  }
+  Group entered() const { return {to.element, onward() ? j : to.first, onward() ? to.last : j + 1}; }
+  Index first() const { return onward() ? from.first : to.first; }
+  Index last() const { return onward() ? to.last : from.last; }
+};
+
+// The stretches of both elements after the passing, as one number whose square the energy goes with; takes
+// the passing.
+inline double pass(const Slide& s, const Passing& p) {
+  for (Index i = p.first(); i < p.last(); ++i)
+    s.work[i].kept = s.state(i), s.work[i].kept_way = s.work[i].way;
+  s.state(p.j).element = p.to.element;
+  const Group left = p.left(), entered = p.entered();
   if (left.first < left.last) find_way(s, left);
   find_way(s, entered);
-  if (s.stored(length_of(s, left)) + s.stored(length_of(s, entered)) < energy_from + energy_to) {
-    ++s.state(j).passes;
+  const double out = stretch(s, length_of(s, left)), in = stretch(s, length_of(s, entered));
+  return std::sqrt(out * out + in * in);
+}
+
+inline void take_back(const Slide& s, const Passing& p) {
+  for (Index i = p.first(); i < p.last(); ++i)
+    s.state(i) = s.work[i].kept, s.work[i].way = s.work[i].kept_way;
+}
+
+// Takes the passing if it lowers the energy.
+bool try_passing(const Slide& s, const Passing& p) {
+  const double out = stretch(s, length_of(s, p.from));
+  if (!(out > stretch(s, s.work[p.from.first].way.straight.length))) return false;  // it would free nothing
+  const double in = stretch(s, length_of(s, p.to)), now = std::sqrt(out * out + in * in);
+  if (stretch(s, least_length(s, p.to.element, p.j)) >= now) return false;
+  if (pass(s, p) < now) {
+    ++s.state(p.j).passes;
     return true;
   }
-  for (Index i = first; i < last; ++i) s.state(i) = s.work[i].kept;
-  find_way(s, from);
-  if (to.first < to.last) find_way(s, to);
+  take_back(s, p);
   return false;
 }
 
@@ -248,11 +280,11 @@ bool try_passing(const Slide& s, const Group& from, const Group& to, Index j) {
 bool pass_one(const Slide& s) {
   for (Index first = s.thread.joint_begin; first < s.thread.joint_end;) {
     const Group group = group_of(s, first);
-    if (!s.work[first].idle && s.stored(s.state(first).length) > 0) {
+    if (!s.work[first].way.idle && s.stored(s.state(first).length) > 0) {
       if (group.element + 1 < s.thread.elements &&
-          try_passing(s, group, next_group(s, group), group.last - 1))
+          try_passing(s, {group, next_group(s, group), group.last - 1}))
         return true;
-      if (group.element > 0 && try_passing(s, group, last_group(s, group), group.first)) return true;
+      if (group.element > 0 && try_passing(s, {group, last_group(s, group), group.first})) return true;
     }
     first = group.last;
   }
@@ -300,7 +332,7 @@ struct Beyond {
 
 // The unit vector with which the way leaves the waypoint of joint j in `group`.
 inline V3 onward_direction(const Slide& s, const Group& group, Index j) {
-  return j + 1 == group.last ? s.work[group.first].last.unit : s.work[j + 1].before_it.unit;
+  return j + 1 == group.last ? s.work[group.first].way.last.unit : s.work[j + 1].way.before_it.unit;
 }
 
 // dp/dt of a point of the opening that moves with the ring.
@@ -309,7 +341,7 @@ inline V3 waypoint_velocity(const Host& host, V3 offset) {
 }
 
 inline double length_rate(const Slide& s, const Group& group) {
-  V3 in = s.work[group.first].before_it.unit;
+  V3 in = s.work[group.first].way.before_it.unit;
   double rate = -dot(in, s.speed(group.element));
   for (Index j = group.first; j < group.last; ++j) {
     const V3 out = onward_direction(s, group, j);
@@ -344,7 +376,7 @@ inline void note_places(const Slide& s, const Group& group) {
   const double length = s.state(group.first).length, share = length > 0 ? 1 / length : 0.0;
   double way = 0;
   for (Index j = group.first; j < group.last; ++j) {
-    way += share * s.work[j].before_it.length;
+    way += share * s.work[j].way.before_it.length;
     s.state(j).along = s.thread.rest_length * (group.element + (way < 1 ? way : 1.0));
   }
 }
@@ -355,7 +387,7 @@ struct Pulls {
 };
 
 inline Pulls pulls_of(const Slide& s, const Group& group) {
-  const Leg& straight = s.work[group.first].straight;
+  const Leg& straight = s.work[group.first].way.straight;
   const double rate = dot(straight.unit, s.speed(group.element + 1) - s.speed(group.element));
   return {Pull(s, s.state(group.first).length, length_rate(s, group)), Pull(s, straight.length, rate)};
 }
@@ -367,7 +399,7 @@ inline void rest_group(const Slide& s, const Group& group) {
 
 // Adds `weight` times the forces of a group, as its joints stand.
 void load_group(const Slide& s, const Group& group, double weight, Beyond& beyond, SlidingWriter& out) {
-  if (s.work[group.first].idle) return rest_group(s, group);
+  if (s.work[group.first].way.idle) return rest_group(s, group);
   const Pulls pulls = pulls_of(s, group);
   const double tension = pulls.with.tension;
   beyond.add(pulls.with, pulls.without, weight);
@@ -375,8 +407,8 @@ void load_group(const Slide& s, const Group& group, double weight, Beyond& beyon
   for (Index j = group.first; j < group.last; ++j) s.state(j).tension = tension, s.state(j).energy = 0;
   s.state(group.first).energy = pulls.with.energy - pulls.without.energy;
   if (!(tension > 0 || pulls.without.tension > 0)) return;
-  const V3 straight = pulls.without.tension * s.work[group.first].straight.unit;
-  V3 in = s.work[group.first].before_it.unit;
+  const V3 straight = pulls.without.tension * s.work[group.first].way.straight.unit;
+  V3 in = s.work[group.first].way.before_it.unit;
   out.threads.add(s.node(group.element), weight * (tension * in - straight));
   for (Index j = group.first; j < group.last; ++j) {
     const V3 next = onward_direction(s, group, j);
@@ -394,7 +426,7 @@ void load_thread(const Slide& s, double weight, Beyond& beyond, SlidingWriter& o
 Beyond beyond_straight(const Slide& s) {
   Beyond sum;
   for (Index j = s.thread.joint_begin; j < s.thread.joint_end; j = s.behind(j)) {
-    if (s.work[j].idle) continue;
+    if (s.work[j].way.idle) continue;
     const Pulls pulls = pulls_of(s, group_of(s, j));
     sum.add(pulls.with, pulls.without, 1);
   }

@@ -85,10 +85,10 @@ void SlidingJoints::tell(State& state) const {
 void SlidingJoints::evaluate(const NodeView& n, const StepPlan& plan, double time, double booked_dt) {
   const kernel::ContactArguments contact{n.x,     n.y, n.z,  n.vx,      n.vy,   n.vz,
                                          n.share, 0,   time, booked_dt, plan.dt};
-  counts_ = kernels_->sliding_joints(
-      {contact, nodes_.data(), threads_.data(), static_cast<Index>(threads_.size()), joints_.data(),
-       states_.data(), tallies_.data(), static_cast<Index>(tallies_.size()), scratch_.data()},
-      on_threads_.data(), on_hosts_.data());
+  counts_ =
+      kernels_->sliding_joints({contact, nodes_.data(), threads_.data(), static_cast<Index>(threads_.size()),
+                                joints_.data(), states_.data(), tallies_.data(), scratch_.data()},
+                               on_threads_.data(), on_hosts_.data());
 }
 
 }  // namespace cinch
