@@ -89,7 +89,7 @@ Problem ring_pull(bool full) {
   const std::vector<int> few = {6, 9, 13, 18, 26, 36, 50};
   for (const double fraction : {0.8, 0.4, 0.2}) add_series(p.settings, "sliding", few, fraction);
   add_series(p.settings, "contact", {50, 100, 200, 400}, 0.8);
-  add_papers_step(p.settings, "contact", {50, 100, 200, 300}, {100, 200, 300});
+  add_papers_step(p.settings, "contact", {50, 100, 200, 300}, {});
   add_papers_step(p.settings, papers_rules, {50, 100, 200, 300}, {100, 200, 300});
   if (full) add_series(p.settings, "contact", {800, 1600}, 0.8);
   return p;

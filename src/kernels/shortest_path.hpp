@@ -99,7 +99,7 @@ inline V3 turn_on_rim(const Opening& o, const Seen& q, const Seen& r, V3 e) {
 
 /// A direction from which the rim point of the shortest way is found: walks through the disc by Weiszfeld's
 /// rule, each step of which goes to the least of a paraboloid above the way's length.
-inline V3 walk_to_rim(const Opening& o, const Seen& q, const Seen& r) {
+[[gnu::cold]] inline V3 walk_to_rim(const Opening& o, const Seen& q, const Seen& r) {
   V3 p{0, 0, 0};
   for (int i = 0; i < 200; ++i) {
     const double iq = inverse_distance(q, p), ir = inverse_distance(r, p);

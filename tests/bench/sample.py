@@ -138,6 +138,21 @@ INSTRUCTIONS: dict[str, dict[str, float]] = {"rings": {"counted": 1001000, "stri
                                              "balls": {"counted": 1000000, "stripped": 1000000}}
 
 
+def of_study() -> list[dict[str, Any]]:
+    """One problem as bench/study writes it: two methods, one of them with the paper's choice, and a run that failed."""
+    def run(method: str, elements: int, error: float, seconds: float, papers: bool = False) -> dict[str, Any]:
+        return {"series": f"{method}, step 1e-06 s", "method": method, "elements": elements, "step_s": 1e-6,
+                "papers_choice": papers, "errors": {"error": error}, "energy_residual": 1e-4,
+                "seconds_per_simulated_second": seconds}
+    runs = [run("contact", n, 4 / n, n / 400, n > 50) for n in (50, 100, 200)]
+    runs += [run("sliding", n, 0.05 / n, n / 2000) for n in (6, 12, 24)]
+    runs.append({"series": "sliding, step 1e-06 s", "method": "sliding", "elements": 2, "step_s": 0.0,
+                 "papers_choice": False, "failure": "error: at t = 1 s <something> went wrong"})
+    best = [{"error": 0.1, "run": 3}, {"error": 0.0001, "run": None}]
+    return [{"name": "pull", "title": "A pull (Sec. 5.1)", "measure": "distance", "reference_error": 0.0004,
+             "runs": runs, "best": best, "orders": {"contact, step 1e-06 s": 1.0}}]
+
+
 def store_page(folder: Path) -> Path:
     """A page with every figure filled, made by the programs as a user would."""
     import dashboard
@@ -148,7 +163,8 @@ def store_page(folder: Path) -> Path:
         history.append(folder / "history.jsonl", read_run(path))
     page = folder / "dashboard.html"
     page.write_text(dashboard.render(read_run(runs[-1]), history.read(folder / "history.jsonl"), INSTRUCTIONS,
-                                     "2026-04-02", dashboard.CHART_JS.read_text(encoding="utf-8")), encoding="utf-8")
+                                     "2026-04-02", dashboard.CHART_JS.read_text(encoding="utf-8"), of_study()),
+                    encoding="utf-8")
     return page
 
 

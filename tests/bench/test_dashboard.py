@@ -22,7 +22,7 @@ def page_of(data: dict[str, Any], instructions: dict[str, Any] | None = None) ->
     """The page of one run without a history."""
     with tempfile.TemporaryDirectory() as folder:
         run = read_run(sample.store(Path(folder), "run", data))
-        return dashboard.render(run, [], instructions or {}, "", CHART_JS)
+        return dashboard.render(run, [], instructions or {}, "", CHART_JS, sample.of_study())
 
 
 def embedded(page: str, element_id: str) -> Any:
@@ -44,13 +44,13 @@ class Page(unittest.TestCase):
     def test_every_figure_has_title_axes_caption_and_numbers(self) -> None:
         page = page_of(sample.google_json(), sample.INSTRUCTIONS)
         figures = re.findall(r'<figure class="plot">(.*?)</figure>', page, re.DOTALL)
-        self.assertEqual(len(figures), 13)
+        self.assertEqual(len(figures), 14)
         for figure in figures:
             for part in ("<h3>", "<canvas", "<figcaption>", "<details>", "<tbody><tr>"):
                 self.assertIn(part, figure)
         for chart in embedded(page, "figures"):
             for axis in ("value",) if chart["type"] == "bar" else ("x", "y"):
-                self.assertRegex(chart[axis]["title"], r"nodes|threads|speed-up|minutes|ns|ms|%|bytes|GB/s")
+                self.assertRegex(chart[axis]["title"], r"nodes|threads|speed-up|minutes|second|ns|ms|%|bytes|GB/s")
 
     def test_the_paper_stands_beside_the_cases(self) -> None:
         page = page_of(sample.google_json())
@@ -77,6 +77,20 @@ class Page(unittest.TestCase):
                                    "time_unit"):
                         del entry[key]
             self.assertIn("<h1>", page_of(data))
+
+    def test_the_study_names_the_fastest_setting_and_marks_the_papers(self) -> None:
+        page = page_of(sample.google_json())
+        chart = next(chart for chart in embedded(page, "figures") if chart["series"][0]["label"].startswith("the paper's own"))
+        self.assertEqual([series["label"] for series in chart["series"]],
+                         ["the paper's own choices", "contact, step 1e-06 s", "sliding, step 1e-06 s"])
+        self.assertEqual(chart["series"][0]["values"], [[0.25, 4.0], [0.5, 2.0]])
+        self.assertIn("within 10 %: sliding, step 1e-06 s, 6 elements; within 0.01 %: none.", page)
+        self.assertIn("at t = 1 s &lt;something&gt; went wrong", page)
+
+    def test_a_page_without_a_study_says_how_to_have_it(self) -> None:
+        with tempfile.TemporaryDirectory() as folder:
+            run = read_run(sample.store(Path(folder), "run", sample.google_json(only="element/")))
+            self.assertIn("To measure it: <code>bench/study</code>", dashboard.render(run, [], {}, "", CHART_JS))
 
     def test_names_cannot_break_out_of_the_page(self) -> None:
         data = sample.google_json(machine="</script><b>", only="startup/")
@@ -109,6 +123,12 @@ class Programs(unittest.TestCase):
         file.write_text('{"rings": {"counted": 1}}', encoding="utf-8")
         self.assertEqual(self.refused(self.run_file, "--chart-js", self.run_file, "--instructions", file),
                          f'error: {file}: "rings" must hold the numbers "counted" and "stripped"\n')
+
+    def test_bad_study(self) -> None:
+        file = self.folder / "study.json"
+        file.write_text('{"problems": [{}]}', encoding="utf-8")
+        self.assertEqual(self.refused(self.run_file, "--chart-js", self.run_file, "--study", file),
+                         f'error: {file}: must hold "problems" as bench/study writes them\n')
 
     def test_no_chart_js_names_the_package(self) -> None:
         self.assertEqual(self.refused(self.run_file, "--chart-js", "/none"),

@@ -1,0 +1,80 @@
+"""Figures of error against run time, from what bench/study has found."""
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+from command_line import BadInput
+from page.figure import GREY, Figure, Row, Series, lines, rounded
+from stored_run import parse_json, read_text
+from text import number
+
+Problem = dict[str, Any]
+
+COMMAND = "bench/study"
+COLOURS = [0, 1, 2, 3, 5, 6, 7]  # grey is the paper's
+
+
+def read_study(path: Path | None) -> list[Problem]:
+    """The problems of a study; none when there is no such file."""
+    if path is None or not path.exists():
+        return []
+    data = parse_json(read_text(path), str(path))
+    problems = data.get("problems") if isinstance(data, dict) else None
+    known = isinstance(problems, list) and all(
+        isinstance(problem, dict) and {"name", "title", "measure", "reference_error", "runs", "best", "orders"}
+        <= problem.keys() for problem in problems)
+    if not known:
+        raise BadInput(f'{path}: must hold "problems" as bench/study writes them')
+    return problems
+
+
+def figures(problems: list[Problem]) -> list[Figure]:
+    """One figure for each problem; without a study one that says how to have it."""
+    if not problems:
+        return [Figure("Error against run time", "", COMMAND, [], [], {"series": []})]
+    return [precision(problem) for problem in problems]
+
+
+def precision(problem: Problem) -> Figure:
+    """Each run as a point: run time across, error upwards; one curve for each method and choice of step."""
+    runs = [run for run in problem["runs"] if "failure" not in run]
+    curves: dict[str, list[Any]] = {}
+    for run in runs:
+        curves.setdefault(run["series"], []).append(_point(run))
+    series = [Series(name, COLOURS[i % len(COLOURS)], points) for i, (name, points) in enumerate(curves.items())]
+    papers = [_point(run) for run in runs if run["papers_choice"]]
+    return Figure(
+        f"Error against run time: {problem['title']}", _caption(problem), COMMAND,
+        ["method and step", "elements", "step, s", "error, %", "run time, s/s", "energy residual", "observed order",
+         "remark"],
+        [_row(problem, run) for run in problem["runs"]],
+        lines([Series("the paper's own choices", GREY, papers), *series],  # the first is drawn on top
+              {"title": "run time per simulated second, s", "log": True}, {"title": "error, %", "log": True}))
+
+
+def _point(run: dict[str, Any]) -> tuple[float | None, float | None]:
+    return rounded(run["seconds_per_simulated_second"]), rounded(100 * run["errors"]["error"])
+
+
+def _row(problem: Problem, run: dict[str, Any]) -> Row:
+    if "failure" in run:
+        return [run["series"], run["elements"], None, None, None, None, None, run["failure"]]
+    return [run["series"], run["elements"], run["step_s"], 100 * run["errors"]["error"],
+            run["seconds_per_simulated_second"], run["energy_residual"], problem["orders"].get(run["series"]),
+            "the paper's choice" if run["papers_choice"] else ""]
+
+
+def _caption(problem: Problem) -> str:
+    """What the error is, and the fastest setting for each wanted one."""
+    best = "; ".join(_best(problem, wanted) for wanted in problem["best"])
+    return (f"Lower left is better. Error: {problem['measure']}; the reference's own is "
+            f"{number(100 * problem['reference_error'])} %. Fastest: {best}.")
+
+
+def _best(problem: Problem, wanted: dict[str, Any]) -> str:
+    within = f"within {100 * wanted['error']:g} %: "
+    if wanted["run"] is None:
+        return within + "none"
+    run = problem["runs"][wanted["run"]]
+    return f"{within}{run['series']}, {run['elements']} elements"
