@@ -76,7 +76,7 @@ inline double inverse_root(double x) {
 /// way longer).
 inline V3 turn_on_rim(const Opening& o, const Seen& q, const Seen& r, V3 e) {
   constexpr int most_turns = 50;       // reached only where the way is flat in the angle
-  constexpr double close_turn = 1e-4;  // Newton squares it
+  constexpr double close_turn = 1e-3;  // Newton squares it
   for (int i = 0; i < most_turns; ++i) {
     const V3 t = cross(o.normal, e), p = o.radius * e;
     const double iq = inverse_distance(q, p), ir = inverse_distance(r, p);

@@ -371,16 +371,6 @@ inline void load_ring(const Slide& s, Index j, V3 force, SlidingWriter& out) {
   out.hosts.add(joint.host_b, 0.5 * force + turn);
 }
 
-// Material coordinates of the rings of a group: thread is stretched evenly.
-inline void note_places(const Slide& s, const Group& group) {
-  const double length = s.state(group.first).length, share = length > 0 ? 1 / length : 0.0;
-  double way = 0;
-  for (Index j = group.first; j < group.last; ++j) {
-    way += share * s.work[j].way.before_it.length;
-    s.state(j).along = s.thread.rest_length * (group.element + (way < 1 ? way : 1.0));
-  }
-}
-
 // How a group pulls, and how its element would without rings.
 struct Pulls {
   Pull with, without;
@@ -392,20 +382,25 @@ inline Pulls pulls_of(const Slide& s, const Group& group) {
   return {Pull(s, s.state(group.first).length, length_rate(s, group)), Pull(s, straight.length, rate)};
 }
 
-// A slack group pulls at nothing.
-inline void rest_group(const Slide& s, const Group& group) {
-  for (Index j = group.first; j < group.last; ++j) s.state(j).tension = 0, s.state(j).energy = 0;
+// What a look wants to know of the rings of a group. Thread is stretched evenly between its nodes.
+void note_group(const Slide& s, const Group& group, const Pulls& pulls) {
+  const double length = s.state(group.first).length, share = length > 0 ? 1 / length : 0.0;
+  double way = 0;
+  for (Index j = group.first; j < group.last; ++j) {
+    way += share * s.work[j].way.before_it.length;
+    s.state(j).along = s.thread.rest_length * (group.element + (way < 1 ? way : 1.0));
+    s.state(j).tension = pulls.with.tension;
+    s.state(j).energy = j == group.first ? pulls.with.energy - pulls.without.energy : 0.0;
+  }
 }
 
 // Adds `weight` times the forces of a group, as its joints stand.
 void load_group(const Slide& s, const Group& group, double weight, Beyond& beyond, SlidingWriter& out) {
-  if (s.work[group.first].way.idle) return rest_group(s, group);
+  if (s.work[group.first].way.idle) return;
   const Pulls pulls = pulls_of(s, group);
   const double tension = pulls.with.tension;
   beyond.add(pulls.with, pulls.without, weight);
-  note_places(s, group);
-  for (Index j = group.first; j < group.last; ++j) s.state(j).tension = tension, s.state(j).energy = 0;
-  s.state(group.first).energy = pulls.with.energy - pulls.without.energy;
+  if (!(s.g.contact.dt > 0)) note_group(s, group, pulls);
   if (!(tension > 0 || pulls.without.tension > 0)) return;
   const V3 straight = pulls.without.tension * s.work[group.first].way.straight.unit;
   V3 in = s.work[group.first].way.before_it.unit;
