@@ -287,7 +287,7 @@ double Piece::load_joints() {
 
 double Piece::step(double time, double motion, StageClock& clock) {
   const auto constraints = static_cast<Index>(constraints_.size());
-  contacts_.evaluate(view(), plan_, time, plan_.dt, motion);
+  if (plan_.touches()) contacts_.evaluate(view(), plan_, time, plan_.dt, motion);
   if (plan_.joints) joints_.evaluate(view(), plan_, time, plan_.dt);
   clock.tick(StageId::contacts);
   hold_before(0, constraints);
@@ -336,7 +336,7 @@ void Piece::lend(Glance& out) {
 
 void Piece::glance(State& state, double time, double motion, Glance& out) {
   take(state);
-  contacts_.evaluate(view(), plan_, time, 0, motion);
+  if (plan_.touches()) contacts_.evaluate(view(), plan_, time, 0, motion);
   if (plan_.joints) {
     joints_.evaluate(view(), plan_, time, 0);
     joints_.tell(state);

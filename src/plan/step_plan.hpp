@@ -29,7 +29,9 @@ struct StepPlan {
 
   /// Only scenes in which something acts on nodes beside their elements go step by step and watch the
   /// greatest speed: it tells how long a list of pairs is good.
-  bool contacts() const { return rings || balls || joints; }
+  bool contacts() const { return touches() || joints; }
+  /// Whether there are pairs that may touch.
+  bool touches() const { return rings || balls; }
   std::vector<StageInfo> stages(const Model& model) const;
 };
 
