@@ -1,10 +1,9 @@
-// Error against run time, on one thread: cinch_study FOLDER [--full] writes study.json and study.csv.
+// Error against run time, on one thread: cinch_study FOLDER [--full|--trial] writes study.json and study.csv.
 //
 // The reference of a problem is the mean of its finest runs; how far they lie apart is its own error.
 #include <chrono>
 #include <cstdio>
 #include <cstring>
-#include <limits>
 
 #include "base/error.hpp"
 #include "study_result.hpp"
@@ -117,12 +116,15 @@ void print_best(const ProblemResult& result) {
 int main(int argc, char** argv) {
   using namespace cinch;
   const bool full = argc == 3 && std::strcmp(argv[2], "--full") == 0;
-  if (argc < 2 || argc > 3 || (argc == 3 && !full)) {
-    std::fprintf(stderr, "usage: cinch_study FOLDER [--full]\n");
+  const bool trial = argc == 3 && std::strcmp(argv[2], "--trial") == 0;
+  if (argc < 2 || argc > 3 || (argc == 3 && !full && !trial)) {
+    std::fprintf(stderr, "usage: cinch_study FOLDER [--full|--trial]\n");
     return static_cast<int>(ExitCode::usage);
   }
   try {
-    const study::Problem problems[] = {study::ring_pull(full), study::net_closing(full)};
+    const auto extent = full ? study::Extent::full : trial ? study::Extent::trial : study::Extent::usual;
+    std::vector<study::Problem> problems{study::ring_pull(extent)};
+    if (!trial) problems.push_back(study::net_closing(extent));
     std::vector<study::ProblemResult> results;
     for (const study::Problem& problem : problems) {
       results.push_back(study::study(problem));

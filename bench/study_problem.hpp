@@ -40,9 +40,16 @@ struct Problem {
   std::vector<Setting> settings;
 };
 
+/// How much of a problem is computed.
+enum class Extent {
+  trial,  ///< a few runs within a second: shows that the study works
+  usual,
+  full  ///< the finest runs with contact, too
+};
+
 /// Sec. 5.1: a thread pulls a ring.
-Problem ring_pull(bool full);
+Problem ring_pull(Extent extent);
 /// Sec. 5.3 without what is chaotic in it: the deployed net closes without a target.
-Problem net_closing(bool full);
+Problem net_closing(Extent extent);
 
 }  // namespace cinch::study

@@ -3,6 +3,7 @@
 // the order of the rings.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <filesystem>
 #include <random>
@@ -242,6 +243,29 @@ TEST(SlidingJoint, WayOfSeveralRingsIsThatOfTheConvexProblem) {
     // between rings the way counts as if it led over a step of a sixteenth of the opening
     EXPECT_GE(bench.states[0].length, exact - 1e-9);
     EXPECT_LE(bench.states[0].length, exact + 2 * 0.004 / 16);
+    Vec3 last = bench.place(1);
+    double sum = 0;
+    for (std::size_t j = 0; j < discs.size(); ++j) {  // thread is stretched evenly along the way
+      const kernel::JointState& state = bench.states[j];
+      const Vec3 waypoint = discs[j].center + Vec3(state.offset[0], state.offset[1], state.offset[2]);
+      sum += (waypoint - last).norm();
+      EXPECT_NEAR(state.along, bench.thread.rest_length * (1 + sum / exact), 0.01 * bench.thread.rest_length);
+      last = waypoint;
+    }
+  }
+}
+
+TEST(SlidingJoint, TheForceOfARingIsThatOfAllItsThreads) {
+  Dice dice(9);
+  for (int i = 0; i < 20; ++i) {
+    Bench bench = bent_thread(dice, 2, true);
+    for (kernel::Joint& joint : bench.joints) joint.ring = 0;
+    bench.evaluate();
+    Vec3 sum = Vec3::Zero();
+    for (const kernel::Load& load : bench.on_hosts) sum += Vec3(load.x, load.y, load.z);
+    const double(&force)[3] = bench.tallies[0].force;
+    EXPECT_NEAR((Vec3(force[0], force[1], force[2]) - sum).norm(), 0, 1e-12 * sum.norm());
+    EXPECT_GT(sum.norm(), 0);
   }
 }
 
@@ -269,7 +293,7 @@ TEST(SlidingJoint, DamperPowerIsWhatTheForcesTake) {
     ASSERT_EQ(bench.states[0].passes, 0);
     bench.dt = 0;
     bench.thread.damping = 0;
-    EXPECT_NEAR(power() - damped, lost, 1e-3 * std::abs(lost)) << rings;
+    EXPECT_NEAR(power() - damped, lost, (rings == 1 ? 1e-6 : 1e-4) * std::abs(lost)) << rings;
     EXPECT_GT(std::abs(lost), 1e-3);
   }
 }
@@ -283,6 +307,88 @@ TEST(SlidingJoint, NothingPullsAtARingOnAStraightThread) {
   for (const kernel::Load& load : bench.on_hosts) EXPECT_EQ(Vec3(load.x, load.y, load.z), Vec3::Zero());
   EXPECT_NEAR(bench.states[0].tension, 1000 * 0.01, 1e-9);
   EXPECT_NEAR(bench.states[0].along, 0.05 * 0.0301 / 0.06, 1e-12);  // where the thread meets the ring's plane
+}
+
+// A thread of four elements with as many rings, some taut and some slack, over rims and through openings.
+Bench any_thread(Dice& dice, int rings) {
+  Bench bench;
+  const double length = dice.between(0.85, 1.1) * bench.thread.rest_length;
+  for (int k = 0; k < 5; ++k)
+    bench.nodes.push_back(bench.add(Vec3(length * k, 0, 0) + dice.in_box(0.004), dice.in_box(1)));
+  std::vector<double> along;
+  for (int r = 0; r < rings; ++r) along.push_back(dice.between(0, 4));
+  std::sort(along.begin(), along.end());
+  for (const double s : along) {
+    const Vec3 center = Vec3(length * s, 0, 0) + dice.in_box(0.005);
+    const Vec3 normal = (Vec3::UnitX() + dice.in_box(0.3)).normalized();
+    const Index a = bench.add(center - 0.02 * normal, dice.in_box(1));
+    bench.add_ring(a, bench.add(center + 0.02 * normal, dice.in_box(1)), static_cast<Index>(s));
+  }
+  return bench;
+}
+
+std::vector<double> components(const std::vector<Vec3>& vectors) {
+  std::vector<double> all;
+  for (const Vec3& v : vectors) all.insert(all.end(), v.data(), v.data() + 3);
+  return all;
+}
+
+// A step leaves out the ways of elements that are straight or slack; a look computes all.
+TEST(SlidingJoint, AStepFeelsWhatALookSees) {
+  Dice dice(6);
+  int pulling = 0, idle = 0;
+  for (int i = 0; i < 300; ++i) {
+    Bench bench = any_thread(dice, 1 + i % 3);
+    for (int round = 0; round < 30; ++round) bench.evaluate();
+    const Bench before = bench;
+    bench.dt = 1e-9;
+    const std::vector<double> step = components(bench.forces());
+    bool passed = false;
+    for (const auto& state : bench.states) passed = passed || state.passes > 0;
+    if (passed) continue;  // whose forces are mixed
+    Bench looked_at = before;
+    const std::vector<double> look = components(looked_at.forces());
+    double size = 0;
+    for (const double f : look) size = std::max(size, std::abs(f));
+    for (std::size_t k = 0; k < look.size(); ++k) ASSERT_NEAR(step[k], look[k], 1e-3 * size) << i;
+    (bench.on_hosts.empty() ? idle : pulling) += 1;
+  }
+  EXPECT_GT(pulling, 50);
+  EXPECT_GT(idle, 50);
+}
+
+// Passings are sorted out by bounds; brute force: no ring has a neighbouring element that takes less energy.
+TEST(SlidingJoint, AfterAStepNoNeighbouringThreadingIsLower) {
+  Dice dice(7);
+  int passes = 0;
+  for (int i = 0; i < 300; ++i) {
+    Bench bench = any_thread(dice, 1 + i % 3);
+    for (auto& state : bench.states)  // some a node astray, in their order
+      if (dice.between(0, 1) < 0.3) state.element = std::min(3, state.element + 1);
+    for (std::size_t j = 1; j < bench.states.size(); ++j)
+      bench.states[j].element = std::max(bench.states[j].element, bench.states[j - 1].element);
+    bench.dt = 1e-9;
+    for (int round = 0; round < 10; ++round) bench.evaluate();
+    for (const auto& state : bench.states) passes += state.passes;
+    bench.dt = 0;
+    const auto settled = [](Bench one) {
+      for (int round = 0; round < 30; ++round) one.evaluate();
+      return one.energy();
+    };
+    const double energy = settled(bench);
+    for (std::size_t j = 0; j < bench.states.size(); ++j)
+      for (const int way : {-1, 1}) {
+        Bench other = bench;
+        Index& element = other.states[j].element;
+        element += way;
+        const Index low = j > 0 ? other.states[j - 1].element : 0;
+        const Index high = j + 1 < other.states.size() ? other.states[j + 1].element : 3;
+        if (element >= low && element <= high) {
+          EXPECT_GE(settled(other), energy * (1 - 1e-3) - 1e-9) << i;
+        }
+      }
+  }
+  EXPECT_GT(passes, 50);
 }
 
 // ---- whole motions
@@ -408,6 +514,21 @@ TEST(SlidingJoint, RingsKeepTheirOrderAndMomentum) {
   EXPECT_LT(sim.summary().angular_momentum_drift, 1e-5 * scale);  // waypoints of several rings are not exact
 }
 
+// Where the closing threads lie on the edges: rings in the middle of meshes 1, 4, 7 and 10, 0.1 m of towing
+// thread before them. With three elements, two rings share one.
+TEST(SlidingJoint, ClosingThreadsBeginInTheRingsOnTheirEdge) {
+  for (const int elements : {3, 26}) {
+    SCOPED_TRACE(elements);
+    Simulation sim(closing_net(elements), 1);
+    run_until(sim, 0.001);
+    sim.look();
+    const auto& joints = sim.state().joints;
+    ASSERT_EQ(joints.size(), 16u);
+    for (std::size_t j = 0; j < joints.size(); ++j)
+      EXPECT_NEAR(joints[j].along, 0.15 + 0.3 * static_cast<double>(j % 4), 0.01) << j;
+  }
+}
+
 // Contact comes near with 480 elements on each closing thread; with 240, the mouth is 5 % of its area ahead.
 TEST(SlidingJoint, MouthClosesAsWithContactOfManyElements) {
   double area[2];
@@ -426,6 +547,89 @@ TEST(SlidingJoint, MouthClosesAsWithContactOfManyElements) {
   EXPECT_NEAR(area[1], area[0], 0.01);
 }
 
+// ---- rings with a node of their own, and threads beside each other
+
+// Two masses on a thread through a ring that does not turn.
+Scene two_masses(const std::string& ring_keys, const std::string& more = "") {
+  return scene_of(R"(
+schema = 1
+[time]
+end_s = 1
+step_s = 1e-5
+[material.m]
+youngs_modulus_Pa = 1e8
+density_kg_m3 = 970
+damping_ratio = 0.05
+[thread.main]
+material = "m"
+diameter_m = 0.002
+elements = 12
+points_m = [[0, -0.3, 0], [0, 0.4, 0.1]]
+start = { mass_kg = 0.1, velocity_m_s = [0.3, 0, -1] }
+end = { mass_kg = 0.05, velocity_m_s = [0, 0.2, 1] }
+[ring.r]
+diameter_m = 0.02
+wire_diameter_m = 0.004
+mass_kg = 0.03
+youngs_modulus_Pa = 1e9
+center_m = [0, 0, 0.043]
+normal = [0.2, 1, 0]
+joint = "sliding"
+)" + ring_keys + more);
+}
+
+void expect_conserved(Simulation& sim) {
+  run_until(sim, 0.5);
+  const Summary summary = sim.summary();
+  EXPECT_LT(summary.linear_momentum_drift, 1e-13);
+  EXPECT_LT(summary.angular_momentum_drift.value(), 1e-10);
+  EXPECT_LT(summary.relative_residual, 2e-5);
+  EXPECT_GT(summary.ring_records[0].peak_force, 0.3) << "the thread must pull at the ring";
+}
+
+// What the supports of a ring that cannot turn take is booked.
+TEST(SlidingJoint, MomentumAndEnergyAreBookedForRingsOfEverySupport) {
+  for (const char* support : {"", "support = \"guided\"\naxis = [1, 0, 1]\n", "support = \"fixed\"\n"}) {
+    SCOPED_TRACE(support);
+    Simulation sim(two_masses(support), 1);
+    expect_conserved(sim);
+    EXPECT_GT(sim.state().joints[0].passes, 0);
+  }
+}
+
+const std::string second_thread = R"([thread.second]
+material = "m"
+diameter_m = 0.002
+elements = 10
+points_m = [[-0.1, -0.3, 0.043], [0.1, 0.3, 0.043]]
+start = { mass_kg = 0.05, velocity_m_s = [0, 0, 1] }
+end = { mass_kg = 0.05, velocity_m_s = [0, 0, 0.5] }
+)";
+
+TEST(SlidingJoint, TwoThreadsSlideThroughOneRing) {
+  Simulation sim(two_masses("", second_thread), 1);
+  ASSERT_EQ(sim.state().joints.size(), 2u);
+  expect_conserved(sim);
+  for (const auto& joint : sim.state().joints) EXPECT_GT(joint.passes, 0);
+}
+
+TEST(SlidingJoint, RingsWithContactStandBesideThoseThatSlide) {
+  Scene scene = two_masses("threads = [\"main\"]\n", second_thread + R"([ring.touched]
+diameter_m = 0.02
+wire_diameter_m = 0.004
+mass_kg = 0.03
+youngs_modulus_Pa = 1e8
+center_m = [0.02, 0.06, 0.0501]
+normal = [0.3, 1, 0]
+threads = ["second"]
+)");
+  scene.time.step = 2e-6;
+  Simulation sim(scene, 1);
+  expect_conserved(sim);
+  EXPECT_EQ(sim.state().joints.size(), 1u);
+  EXPECT_GT(sim.summary().ring_records[1].peak_force, 0.01) << "the second thread must touch its ring";
+}
+
 // ---- what cannot be
 
 std::string refusal(const std::vector<Override>& sets) {
@@ -437,6 +641,16 @@ std::string refusal(const std::vector<Override>& sets) {
     return error.what();
   }
   return "";
+}
+
+TEST(SlidingJoint, AThreadThatPassesElsewhereMayBeTooThick) {
+  Scene scene = ring_pull(13);
+  Thread rope = scene.threads[0];
+  rope.name = "rope";
+  rope.diameter = 0.1;
+  for (Vec3& point : rope.points) point.x() += 1;
+  scene.threads.push_back(rope);
+  EXPECT_EQ(assemble(scene).rings[0].threadings.size(), 1u);
 }
 
 TEST(SlidingJoint, ImpossibleThreadingsAreNamed) {

@@ -191,16 +191,15 @@ struct SlidingThread {
 
 /// Where a joint stands and what it has felt.
 struct JointState {
-  Index element;     ///< of its thread: the ring lies in it
-  Index passes;      ///< nodes that have passed the ring
-  double offset[3];  ///< of the thread's waypoint from the ring's centre, m
-  double
-      dissipated;  ///< by dampers beyond those of straight elements, J; of all rings of a thread at the first
-  // as they were when last looked at
+  Index element;      ///< of its thread: the ring lies in it
+  Index passes;       ///< nodes that have passed the ring
+  double offset[3];   ///< of the thread's waypoint from the ring's centre, m
+  double dissipated;  ///< by dampers beyond straight elements, J; of the whole thread at its first ring
+  // as last looked at
   double length;   ///< of its element, m
   double tension;  ///< on both sides of the ring, N
-  double energy;  ///< stored in its element beyond that of the straight one, J; of several rings at the first
-  double along;   ///< unstretched thread from its start to the ring, m: the material coordinate
+  double energy;   ///< of its element beyond the straight one, J; of several rings at the first
+  double along;    ///< unstretched thread from its start to the ring, m: the material coordinate
 };
 
 /// How many loads sliding joints wrote on nodes of threads and of the rings' hosts.

@@ -1,15 +1,14 @@
 // The shortest way of a thread through the openings of rings.
 //
-// An opening is the disc in which the thread's centre line can pass: centre C, unit normal N, radius c = R_B
-// - r_A - r_B. The way |q - p| + |p - r| by a point p of one disc is convex in p. With the axial places z_q =
-// N.(q - C), z_r and the in-plane places w_q, w_r, unfolding the way at the disc's plane makes it a straight
-// line, which meets the plane at
+// An opening is the disc in which the thread's centre line can pass: centre C, unit normal N, radius
+// c = R_B - r_A - r_B. The way |q - p| + |p - r| by a point p of one disc is convex in p. With the axial
+// places z_q = N.(q - C), z_r and the in-plane places w_q, w_r, unfolding the way at the disc's plane makes
+// it a straight line, which meets the plane at
 //   x = (|z_r| w_q + |z_q| w_r) / (|z_q| + |z_r|);
 // that is p if |x| <= c: the thread does not touch the wire (it lies on the line from q to r unless both are
-// on one side). Else p = c e lies on the rim, where the slope along the rim vanishes. With D_q = |q - p| and
-// W = w_q/D_q + w_r/D_r,
-//   0 = t.W,   t = N x e,   and the derivative of -t.W by the angle is   e.W - c ((t.w_q)^2/D_q^3 +
-//   (t.w_r)^2/D_r^3).
+// on one side). Else p = c e lies on the rim, where the way has no slope along the rim. With t = N x e,
+// D_q = |q - p| and W = w_q/D_q + w_r/D_r that is t.W = 0; the slope -c t.W changes with the angle by
+//   c (e.W - c ((t.w_q)^2/D_q^3 + (t.w_r)^2/D_r^3)).
 //
 // Two rings of one element may come so close that their waypoints coincide, where |q - p| has no slope.
 // Between rings the distance is therefore sqrt(|q - p|^2 + lift^2): that of points which lie `lift` apart
@@ -99,15 +98,17 @@ inline V3 turn_on_rim(const Opening& o, const Seen& q, const Seen& r, V3 e) {
 
 /// A direction from which the rim point of the shortest way is found: walks through the disc by Weiszfeld's
 /// rule, each step of which goes to the least of a paraboloid above the way's length.
-[[gnu::cold]] inline V3 walk_to_rim(const Opening& o, const Seen& q, const Seen& r) {
+[[gnu::cold]] inline V3 walk_to_rim(const Opening& o, const Seen& q, const Seen& r, V3 guess) {
   V3 p{0, 0, 0};
+  double out = 0;
   for (int i = 0; i < 200; ++i) {
     const double iq = inverse_distance(q, p), ir = inverse_distance(r, p);
+    if (!(iq + ir > 0)) break;
     p = (1 / (iq + ir)) * (iq * q.across + ir * r.across);
-    const double out = norm(p);
+    out = norm(p);
     if (out > o.radius) p = (o.radius / out) * p;
   }
-  return (1 / norm(p)) * p;
+  return out > 0 ? (1 / norm(p)) * p : guess;
 }
 
 /// Whether the way gets no shorter when its rim point c e moves inwards: then, as the way is convex, there is
@@ -120,7 +121,7 @@ inline bool leads_outwards(const Opening& o, const Seen& q, const Seen& r, V3 e)
 
 inline V3 rim_point(const Opening& o, const Seen& q, const Seen& r, V3 guess) {
   const V3 e = turn_on_rim(o, q, r, guess);
-  return o.radius * (leads_outwards(o, q, r, e) ? e : turn_on_rim(o, q, r, walk_to_rim(o, q, r)));
+  return o.radius * (leads_outwards(o, q, r, e) ? e : turn_on_rim(o, q, r, walk_to_rim(o, q, r, e)));
 }
 
 /// Where the thread passes through one opening.

@@ -48,6 +48,7 @@ struct Way {
   Leg before_it;  // from the last waypoint (or node) to the joint's
   // of the first joint in an element:
   Leg last, straight;  // from the last waypoint to the node; from node to node
+  double length;       // of the whole way, m
   bool idle;           // its rings change nothing of its pull
 };
 
@@ -82,9 +83,9 @@ struct Slide {
   V3 place(Index k) const { return at(g.contact.x, g.contact.y, g.contact.z, node(k)); }
   V3 speed(Index k) const { return at(g.contact.vx, g.contact.vy, g.contact.vz, node(k)); }
   V3 waypoint(Index j) const { return work[j].host.opening.center + vec(state(j).offset); }
-  double stored(double length) const {
-    const double stretch = length - thread.rest_length;
-    return stretch > 0 ? 0.5 * thread.stiffness * stretch * stretch : 0.0;
+  // How much longer than its thread an element is, for a length of its way.
+  double stretch(double length) const {
+    return length > thread.rest_length ? length - thread.rest_length : 0.0;
   }
   // The first joint behind those that lie in the element of joint j.
   Index behind(Index j) const {
@@ -170,9 +171,8 @@ inline void measure_way(const Slide& s, const Group& group, V3 a, V3 b, bool str
     from = to;
   }
   first.last = leg(from, b, 0);
-  length = straight ? first.straight.length : length + first.last.length;
+  first.length = straight ? first.straight.length : length + first.last.length;
   if (straight) first.before_it.unit = first.last.unit = first.straight.unit;
-  for (Index j = group.first; j < group.last; ++j) s.state(j).length = length;
 }
 
 // Finds the way of a group. In a step, nobody asks for that of one that is straight or, by the rings'
@@ -199,7 +199,7 @@ inline void find_way(const Slide& s, const Group& group) {
 // ---- nodes that pass
 
 inline double length_of(const Slide& s, const Group& group) {
-  if (group.first < group.last && !s.work[group.first].way.idle) return s.state(group.first).length;
+  if (group.first < group.last && !s.work[group.first].way.idle) return s.work[group.first].way.length;
   return norm(s.place(group.element + 1) - s.place(group.element));
 }
 
@@ -226,11 +226,6 @@ inline double least_length(const Slide& s, Index element, Index j) {
   return way > straight ? way : straight;
 }
 
-// How much longer than its thread an element is, for a length of its way.
-inline double stretch(const Slide& s, double length) {
-  return length > s.thread.rest_length ? length - s.thread.rest_length : 0.0;
-}
-
 // Ring j, at the end of `from`, goes to `to`.
 struct Passing {
   Group from, to;
@@ -253,7 +248,7 @@ inline double pass(const Slide& s, const Passing& p) {
   const Group left = p.left(), entered = p.entered();
   if (left.first < left.last) find_way(s, left);
   find_way(s, entered);
-  const double out = stretch(s, length_of(s, left)), in = stretch(s, length_of(s, entered));
+  const double out = s.stretch(length_of(s, left)), in = s.stretch(length_of(s, entered));
   return std::sqrt(out * out + in * in);
 }
 
@@ -264,10 +259,10 @@ inline void take_back(const Slide& s, const Passing& p) {
 
 // Takes the passing if it lowers the energy.
 bool try_passing(const Slide& s, const Passing& p) {
-  const double out = stretch(s, length_of(s, p.from));
-  if (!(out > stretch(s, s.work[p.from.first].way.straight.length))) return false;  // it would free nothing
-  const double in = stretch(s, length_of(s, p.to)), now = std::sqrt(out * out + in * in);
-  if (stretch(s, least_length(s, p.to.element, p.j)) >= now) return false;
+  const double out = s.stretch(length_of(s, p.from));
+  if (!(out > s.stretch(s.work[p.from.first].way.straight.length))) return false;  // it would free nothing
+  const double in = s.stretch(length_of(s, p.to)), now = std::sqrt(out * out + in * in);
+  if (s.stretch(least_length(s, p.to.element, p.j)) >= now) return false;
   if (pass(s, p) < now) {
     ++s.state(p.j).passes;
     return true;
@@ -280,7 +275,7 @@ bool try_passing(const Slide& s, const Passing& p) {
 bool pass_one(const Slide& s) {
   for (Index first = s.thread.joint_begin; first < s.thread.joint_end;) {
     const Group group = group_of(s, first);
-    if (!s.work[first].way.idle && s.stored(s.state(first).length) > 0) {
+    if (!s.work[first].way.idle && s.stretch(s.work[first].way.length) > 0) {
       if (group.element + 1 < s.thread.elements &&
           try_passing(s, {group, next_group(s, group), group.last - 1}))
         return true;
@@ -308,7 +303,7 @@ struct Pull {
   double energy = 0;                         // J
 
   Pull(const Slide& s, double length, double length_rate) {
-    const double stretch = length - s.thread.rest_length;
+    const double stretch = s.stretch(length);
     if (!(stretch > 0)) return;
     rate = length_rate;
     spring = s.thread.stiffness * stretch;
@@ -379,16 +374,17 @@ struct Pulls {
 inline Pulls pulls_of(const Slide& s, const Group& group) {
   const Leg& straight = s.work[group.first].way.straight;
   const double rate = dot(straight.unit, s.speed(group.element + 1) - s.speed(group.element));
-  return {Pull(s, s.state(group.first).length, length_rate(s, group)), Pull(s, straight.length, rate)};
+  return {Pull(s, s.work[group.first].way.length, length_rate(s, group)), Pull(s, straight.length, rate)};
 }
 
 // What a look wants to know of the rings of a group. Thread is stretched evenly between its nodes.
 void note_group(const Slide& s, const Group& group, const Pulls& pulls) {
-  const double length = s.state(group.first).length, share = length > 0 ? 1 / length : 0.0;
+  const double length = s.work[group.first].way.length, share = length > 0 ? 1 / length : 0.0;
   double way = 0;
   for (Index j = group.first; j < group.last; ++j) {
     way += share * s.work[j].way.before_it.length;
     s.state(j).along = s.thread.rest_length * (group.element + (way < 1 ? way : 1.0));
+    s.state(j).length = length;
     s.state(j).tension = pulls.with.tension;
     s.state(j).energy = j == group.first ? pulls.with.energy - pulls.without.energy : 0.0;
   }

@@ -15,15 +15,15 @@ std::size_t memory_of(const Assembly& a) {
 }
 
 std::size_t memory_of(const Model& m) {
-  std::size_t sum =
-      bytes_of(m.mass, m.stiffness, m.damping, m.rest_length, m.end_a, m.end_b, m.radius, m.compliance,
-               m.constraints, m.rings, m.topology.runs, m.topology.slot_element, m.topology.links);
+  std::size_t sum = bytes_of(m.mass, m.stiffness, m.damping, m.rest_length, m.end_a, m.end_b, m.radius,
+                             m.compliance, m.constraints, m.rings, m.sliding_nodes, m.joints, m.topology.runs,
+                             m.topology.slot_element, m.topology.links);
   for (const ContactSet& set : m.contact_sets) sum += bytes_of(set.elements, set.weight_a, set.weight_b);
   return sum;
 }
 
 std::size_t memory_of(const State& s) {
-  std::size_t sum = bytes_of(s.x, s.y, s.z, s.vx, s.vy, s.vz, s.dissipated, s.rings, s.reactions);
+  std::size_t sum = bytes_of(s.x, s.y, s.z, s.vx, s.vy, s.vz, s.dissipated, s.rings, s.joints, s.reactions);
   for (const auto& ball : s.balls) sum += bytes_of(ball);
   return sum;
 }
@@ -57,9 +57,13 @@ std::size_t NearContacts::memory() const {
   return bytes_of(contacts_.pairs, contacts_.ball_tallies, lanes_, asleep_, near_, awake_, gap_, loads_);
 }
 
+std::size_t SlidingJoints::memory() const {
+  return bytes_of(nodes_, joints_, number_, states_, tallies_, scratch_, on_threads_, on_hosts_);
+}
+
 std::size_t Piece::memory() const {
   const ForceReduction& r = reduction_;
-  std::size_t sum = numbering_.memory() + contacts_.memory() +
+  std::size_t sum = numbering_.memory() + contacts_.memory() + joints_.memory() +
                     bytes_of(topology_.runs, topology_.slot_element, topology_.links, r.blocks, r.patches,
                              r.spans, r.links, r.stretches, r.kicks, scale_, share_, palette_, parameter_);
   for (const auto& field : own_fields_) sum += bytes_of(field);

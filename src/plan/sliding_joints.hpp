@@ -35,6 +35,7 @@ class SlidingJoints {
   /// What nodes of threads take beside the force of straight elements; forces of the rings on their hosts.
   std::span<const kernel::Load> on_threads() const { return {on_threads_.data(), count(counts_.threads)}; }
   std::span<const kernel::Load> on_hosts() const { return {on_hosts_.data(), count(counts_.hosts)}; }
+  std::size_t memory() const;  ///< bytes, see memory.hpp
 
  private:
   void add_thread(const Model& model, std::size_t thread, bool booked);

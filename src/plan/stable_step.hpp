@@ -12,9 +12,9 @@
 // An element through which rings slide pulls at their hosts, too: its length changes by w for a node's place
 // by 1, w = 1 at its ends. In general an element is stable while
 //   dt^2/4 sum_i w_i S_i/m_i + dt/2 sum_i w_i C_i/m_i <= 1,   S, C: sums of w k, w c at a node,
-// and w at a host is bounded for all that the rings can do. As nobody knows which rings meet in one element,
-// each element of their thread counts all of them: on the safe side, and next to nothing where rings are
-// heavier than its nodes.
+// and w at a host that is not slack is bounded for all that the rings can do. As nobody knows which rings
+// meet in one element, each element of their thread counts all of them: on the safe side, and next to nothing
+// where rings are heavier than its nodes.
 #pragma once
 #include <string>
 #include <vector>

@@ -57,7 +57,7 @@ std::vector<StageInfo> StepPlan::stages(const Model& model) const {
                            : "paper: dropped and booked"});
   list.push_back({"target contact", balls, balls ? count(model.balls.size(), "balls") : "no target"});
   list.push_back(
-      {"broadphase", contacts(), contacts() ? "only when the margin may be used up" : "no contacts"});
+      {"broadphase", touches(), touches() ? "only when the margin may be used up" : "no contacts"});
   list.push_back({"watch on speeds", contacts(),
                   contacts() ? "every step, inside gather and move" : "no contacts: now and then"});
   list.push_back({"gravity", gravity, gravity ? "inside gather and move" : "no gravity"});

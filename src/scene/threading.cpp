@@ -29,8 +29,10 @@ void check_opening(const Assembly& assembly, const AssemblyRing& ring, const Par
   fail(source, text);
 }
 
-// Where a thread crosses the ring's plane inside its opening, in elements from its start.
-std::vector<double> crossings(const Assembly& assembly, const AssemblyRing& ring, const Part& thread) {
+// Where a thread crosses the ring's plane no farther from its centre than `reach`, in elements from its
+// start.
+std::vector<double> crossings(const Assembly& assembly, const AssemblyRing& ring, const Part& thread,
+                              double reach) {
   const auto place = [&](Index node) { return assembly.nodes[at(node)].position; };
   const Vec3 center = 0.5 * (place(ring.host_a) + place(ring.host_b));
   const Vec3 normal =
@@ -41,8 +43,7 @@ std::vector<double> crossings(const Assembly& assembly, const AssemblyRing& ring
     const double axial_a = normal.dot(a), axial_b = normal.dot(b);
     if ((axial_a < 0) == (axial_b < 0)) continue;
     const double t = axial_a / (axial_a - axial_b);
-    if (((1 - t) * a + t * b).norm() <= opening(assembly, ring, thread))
-      found.push_back(static_cast<double>(k) + t);
+    if (((1 - t) * a + t * b).norm() <= reach) found.push_back(static_cast<double>(k) + t);
   }
   return found;
 }
@@ -54,15 +55,16 @@ std::vector<double> places_in_ring(const Assembly& assembly, const std::map<Inde
   if (const auto laid = carriers.find(number); laid != carriers.end())
     if (const double reach = laid->second.carrier.middle_of(ring.host_a, ring.host_b); reach >= 0)
       return {(laid->second.overhang + reach) / laid->second.length * thread.elements};
-  return crossings(assembly, ring, thread);
+  const double room = opening(assembly, ring, thread);
+  return crossings(assembly, ring, thread, room > 0 ? room : ring.radius);  // what cannot fit is refused
 }
 
 void thread_ring(const Ring& spec, const std::map<Index, LaidAlong>& carriers, const Assembly& assembly,
                  AssemblyRing& ring) {
   for (const Index number : ring.parts) {
     const Part& thread = assembly.parts[at(number)];
-    check_opening(assembly, ring, thread, spec.source);
     const std::vector<double> places = places_in_ring(assembly, carriers, ring, number);
+    if (!places.empty()) check_opening(assembly, ring, thread, spec.source);
     const std::string words = "ring '" + ring.name + "': thread '" + thread.name + "' ";
     if (places.size() > 1)
       fail(spec.source, words + "passes through it " + std::to_string(places.size()) +

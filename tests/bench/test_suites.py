@@ -50,7 +50,7 @@ class Suites(unittest.TestCase):
 
     def test_counters(self) -> None:
         found = self.measured("^(element/chain/200$|absent/all/|growth/1024/threads:1/|kernel/ring_contact/16|"
-                              "output/frame)")
+                              "kernel/sliding_joint/16|output/frame)")
         expected = {
             "element/chain/200": {"element_updates_per_second", "fraction_of_yardstick"},
             "absent/all/with": {"element_updates_per_second"},
@@ -58,12 +58,14 @@ class Suites(unittest.TestCase):
             "growth/1024/threads:1": {"nodes", "elements", "element_updates_per_second", "bytes_per_second",
                                       "fraction_of_triad", "omp_threads", "bytes_per_item"},
             "kernel/ring_contact/16": {"items_per_second"},
+            "kernel/sliding_joint/16": {"items_per_second"},
             "output/frame": {"bytes_per_second"},
         }
         self.assertEqual({name: result.error for name, result in found.items()}, dict.fromkeys(expected, ""))
         for name, counters in expected.items():
             self.assertLessEqual(counters, set(found[name].counters), name)
         self.assertGreater(found["kernel/ring_contact/16"].counters["loads"], 0)  # the rings do touch
+        self.assertEqual(found["kernel/sliding_joint/16"].counters["loads"], 16)  # and all bend the thread
 
     def test_stripped_programs_reach_the_solvers_bits(self) -> None:
         for feature in output(COUNT, "--features"):
