@@ -70,6 +70,26 @@ TEST(ShortestPassage, IsThatOfTheConvexProblem) {
   EXPECT_GT(rim, 1000);
 }
 
+// As when a node passes over the wire: one neighbour nearly on the rim, so that the way has a kink beside it.
+TEST(ShortestPassage, IsFoundWhereANodeLiesOnTheRim) {
+  Dice dice(8);
+  int rim = 0;
+  for (int i = 0; i < 2000; ++i) {
+    const double radius = 0.007;
+    const Vec3 normal = dice.direction(), side = normal.cross(dice.direction()).normalized();
+    const Vec3 b = radius * (side + std::pow(10, dice.between(-9, -1)) * dice.direction());
+    const Vec3 a = dice.in_box(0.03) - (i % 2 == 0 ? 2 * radius : 0) * side;
+    const plain::Opening opening{{0, 0, 0}, plain_of(normal), radius};
+    const plain::Passage passage =
+        plain::shortest_passage(opening, {plain_of(a), 0}, {plain_of(b), 0}, plain_of(dice.in_box(radius)));
+    EXPECT_NEAR(way(a, vec(passage.offset), b),
+                oracle::shortest_path(a, {{Vec3::Zero(), normal, radius}}, b).length, 2e-9)
+        << i;
+    rim += vec(passage.offset).norm() > 0.999 * radius;
+  }
+  EXPECT_GT(rim, 500);
+}
+
 TEST(ShortestPassage, TouchesTheRimAtRightAnglesToItsSlope) {
   Dice dice(2);
   for (int i = 0; i < 2000; ++i) {

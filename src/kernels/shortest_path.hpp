@@ -70,58 +70,74 @@ inline double inverse_root(double x) {
   return 1 - d * (0.5 - d * (0.375 - d * (0.3125 - d * 0.2734375)));
 }
 
-/// Turns the unit in-plane vector e to where the way over the rim point c e is shortest. Newton's method
+/// The rim point c e, how the way changes along the rim there, and how near the neighbours are.
+struct RimPoint {
+  V3 along;             ///< t
+  V3 pull;              ///< W
+  double slope, curve;  ///< t.W, and what it loses for a turn by one
+  double near;          ///< c (1/D_q + 1/D_r): how many times a turn by one is the distance to a neighbour
+};
+
+inline RimPoint at_rim(const Opening& o, const Seen& q, const Seen& r, V3 e) {
+  const V3 t = cross(o.normal, e), p = o.radius * e;
+  const double iq = inverse_distance(q, p), ir = inverse_distance(r, p);
+  const V3 w = iq * q.across + ir * r.across;
+  const double tq = iq * dot(t, q.across), tr = ir * dot(t, r.across);
+  return {t, w, dot(t, w), dot(e, w) - o.radius * (tq * tq * iq + tr * tr * ir), o.radius * (iq + ir)};
+}
+
+constexpr double close_turn =
+    1e-3;  // for distances between rim point and neighbours of one; Newton squares it
+
+/// Turns the unit in-plane vector e to where the way over the rim point c e has no slope. Newton's method
 /// where the way is convex in the angle, else the angle that Weiszfeld's rule gives (no step of it makes the
-/// way longer).
-inline V3 turn_on_rim(const Opening& o, const Seen& q, const Seen& r, V3 e) {
-  constexpr int most_turns = 50;       // reached only where the way is flat in the angle
-  constexpr double close_turn = 1e-3;  // Newton squares it
+/// way longer). Returns whether it came to an end.
+inline bool turn_on_rim(const Opening& o, const Seen& q, const Seen& r, V3& e) {
+  constexpr int most_turns = 12;
   for (int i = 0; i < most_turns; ++i) {
-    const V3 t = cross(o.normal, e), p = o.radius * e;
-    const double iq = inverse_distance(q, p), ir = inverse_distance(r, p);
-    const V3 w = iq * q.across + ir * r.across;
-    const double slope = dot(t, w), steep = dot(e, w);
-    const double tq = iq * dot(t, q.across), tr = ir * dot(t, r.across);
-    const double curve = steep - o.radius * (tq * tq * iq + tr * tr * ir);
-    if (curve > 0.1 * std::fabs(steep) && std::fabs(slope) < curve) {
-      const double turn = slope / curve;
-      e = inverse_root(1 + turn * turn) * (e + turn * t);
-      if (std::fabs(turn) < close_turn) break;
+    const RimPoint p = at_rim(o, q, r, e);
+    if (p.curve > 0.1 * std::fabs(dot(e, p.pull)) && std::fabs(p.slope) < p.curve) {
+      const double turn = p.slope / p.curve;
+      e = inverse_root(1 + turn * turn) * (e + turn * p.along);
+      if (std::fabs(turn) * (1 + p.near) < close_turn) return true;
     } else {
-      const double length = norm(w);
-      if (!(length > 0)) break;
-      e = (1 / length) * w;  // in the plane, as both parts are
+      const double length = norm(p.pull);
+      if (!(length > 0)) return false;
+      e = (1 / length) * p.pull;  // in the plane, as both parts are
     }
+  }
+  return false;
+}
+
+/// The same within the arc of the rim that is seen from x, by Newton's method where it more than halves the
+/// step, else by halving the arc: comes to an end wherever the neighbours are.
+[[gnu::cold, gnu::noinline]] inline V3 search_rim(const Opening& o, const Seen& q, const Seen& r, V3 x,
+                                                  double cosine) {
+  const V3 middle = (1 / norm(x)) * x, side = cross(o.normal, middle);
+  const double sine = cosine < 1 ? std::sqrt(1 - cosine * cosine) : 0.0;
+  V3 low = cosine * middle - sine * side, high = cosine * middle + sine * side, e = middle;
+  for (double last = 2 * sine; last > 1e-14;) {
+    const RimPoint p = at_rim(o, q, r, e);
+    (p.slope > 0 ? low : high) = e;
+    const double turn = p.curve > 0 ? p.slope / p.curve : 2.0;
+    const V3 newton = (1 / std::sqrt(1 + turn * turn)) * (e + turn * p.along), half = low + high;
+    const bool good = std::fabs(turn) < 0.5 * last && dot(o.normal, cross(low, newton)) > 0 &&
+                      dot(o.normal, cross(newton, high)) > 0;
+    e = good ? newton : (1 / norm(half)) * half;
+    if (good && std::fabs(turn) * (1 + p.near) < close_turn) break;
+    last = good ? std::fabs(turn) : 0.5 * norm(high - low);
   }
   return e;
 }
 
-/// A direction from which the rim point of the shortest way is found: walks through the disc by Weiszfeld's
-/// rule, each step of which goes to the least of a paraboloid above the way's length.
-[[gnu::cold]] inline V3 walk_to_rim(const Opening& o, const Seen& q, const Seen& r, V3 guess) {
-  V3 p{0, 0, 0};
-  double out = 0;
-  for (int i = 0; i < 200; ++i) {
-    const double iq = inverse_distance(q, p), ir = inverse_distance(r, p);
-    if (!(iq + ir > 0)) break;
-    p = (1 / (iq + ir)) * (iq * q.across + ir * r.across);
-    out = norm(p);
-    if (out > o.radius) p = (o.radius / out) * p;
-  }
-  return out > 0 ? (1 / norm(p)) * p : guess;
-}
-
-/// Whether the way gets no shorter when its rim point c e moves inwards: then, as the way is convex, there is
-/// no shorter one; along the rim alone there may be.
-inline bool leads_outwards(const Opening& o, const Seen& q, const Seen& r, V3 e) {
-  const V3 p = o.radius * e;
-  const double iq = inverse_distance(q, p), ir = inverse_distance(r, p);
-  return dot(e, iq * q.across + ir * r.across) >= o.radius * (iq + ir) * (1 - 1e-4);
-}
-
-inline V3 rim_point(const Opening& o, const Seen& q, const Seen& r, V3 guess) {
-  const V3 e = turn_on_rim(o, q, r, guess);
-  return o.radius * (leads_outwards(o, q, r, e) ? e : turn_on_rim(o, q, r, walk_to_rim(o, q, r, e)));
+/// x: where the way would meet the plane if it could, times `scale`. The way is convex, so from its shortest
+/// rim point it falls towards x, which then lies outwards; and on the arc from which x is seen, every place
+/// without slope is such a point. So there is one only, and a place beyond the arc is none.
+inline V3 rim_point(const Opening& o, const Seen& q, const Seen& r, V3 x, double scale, V3 guess) {
+  const double limit = o.radius * scale;
+  V3 e = guess;
+  const bool found = turn_on_rim(o, q, r, e) && dot(e, x) > limit;
+  return o.radius * (found ? e : search_rim(o, q, r, x, limit / norm(x)));
 }
 
 /// Where the thread passes through one opening.
@@ -136,7 +152,7 @@ inline Passage passage_within(const Opening& o, const Seen& q, const Seen& r, V3
   const V3 nearest = nearest_to_origin(q.across, r.across);  // both in the plane
   const double out2 = dot(nearest, nearest);
   if (!(out2 > o.radius * o.radius)) return {nearest, true};
-  return {rim_point(o, q, r, (1 / std::sqrt(out2)) * nearest), false};
+  return {rim_point(o, q, r, nearest, 1, (1 / std::sqrt(out2)) * nearest), false};
 }
 
 /// The waypoint that makes the way from q to r shortest; `guess` is an offset to begin with, of any size.
@@ -152,7 +168,8 @@ inline Passage shortest_passage(const Opening& o, const Neighbour& from, const N
   const V3 e = inverse * flat;
   const double size2 = dot(e, e);
   const bool good = size2 > 0.8 && dot(e, x) > 0;
-  return {rim_point(o, q, r, good ? inverse_root(size2) * e : (1 / std::sqrt(out2)) * x), false};
+  const V3 first = good ? inverse_root(size2) * e : (1 / std::sqrt(out2)) * x;
+  return {rim_point(o, q, r, x, sum, first), false};
 }
 
 }  // namespace cinch::CINCH_ISA
