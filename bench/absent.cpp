@@ -64,12 +64,14 @@ StrippedNet::StrippedNet(const Features& has)
   const double dt = start_.preparation().dt;
   for (Index i = 0; i < model_.nodes; ++i) scale_.push_back(dt / model_.mass[at(i)]);
   for (auto& f : force_) f.assign(at(work_.force_count), 0.0);
+  damper_.assign(parameter_.size() * kernel::lanes, 0.0);
   for (const Block& b : work_.blocks)
     blocks_.push_back({b.patch_begin, b.patch_end, b.span_begin, b.span_end, b.stretch_begin, b.stretch_end});
   State& s = state_;
   scene_.axial = {s.x.data(),       s.y.data(),       s.z.data(),        s.vx.data(),
                   s.vy.data(),      s.vz.data(),      parameter_.data(), palette_.data(),
-                  force_[0].data(), force_[1].data(), force_[2].data(),  s.dissipated.data()};
+                  force_[0].data(), force_[1].data(), force_[2].data(),  s.dissipated.data(),
+                  damper_.data(),   nullptr,          nullptr,           dt};
   const Vec3 g = dt * model_.gravity;
   scene_.node = {
       s.x.data(),    s.y.data(),       s.z.data(),       s.vx.data(),      s.vy.data(),           s.vz.data(),

@@ -38,7 +38,7 @@ class StrippedNet {
   State state_;
   ForceReduction work_;
   std::vector<StrippedBlock> blocks_;
-  AlignedVector<double> palette_, scale_, force_[3];
+  AlignedVector<double> palette_, scale_, force_[3], damper_;
   std::vector<Index> parameter_;
   StrippedScene scene_{};
   void (*advance_)(const StrippedScene&, std::int64_t) = nullptr;

@@ -27,12 +27,14 @@ struct Chain {
     scale.assign(nodes, 1e-6 / 1.5e-5);
     parameter.assign(static_cast<std::size_t>(count / lanes), 0);
     for (const double value : {6.28e5, 0.655, 0.005}) palette.insert(palette.end(), lanes, value);
+    damper.assign(static_cast<std::size_t>(count), 0.0);
     booked.assign(static_cast<std::size_t>(count / kernel::grain + 1) * lanes, 0.0);
   }
   kernel::AxialArguments axial() {
     return {fields[0].data(), fields[1].data(), fields[2].data(), fields[3].data(),
             fields[4].data(), fields[5].data(), parameter.data(), palette.data(),
-            forces[0].data(), forces[1].data(), forces[2].data(), booked.data()};
+            forces[0].data(), forces[1].data(), forces[2].data(), booked.data(),
+            damper.data(),    nullptr,          nullptr,          1e-9};
   }
   kernel::NodeArguments node() {
     return {fields[0].data(), fields[1].data(), fields[2].data(), fields[3].data(),
@@ -41,7 +43,7 @@ struct Chain {
   }
 
   Index count;
-  AlignedVector<double> fields[6], forces[3], scale, palette, booked;
+  AlignedVector<double> fields[6], forces[3], scale, palette, booked, damper;
   std::vector<Index> parameter;
 };
 

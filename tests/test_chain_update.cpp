@@ -19,7 +19,7 @@ constexpr Index groups = 37, nodes = groups * lanes, first = 3 * lanes;  // rows
 
 // A chain of random elements, a third of them slack, and random forces of other runs on its nodes.
 struct Chain {
-  AlignedVector<double> field[6], scale, force[3], palette, booked;
+  AlignedVector<double> field[6], scale, force[3], palette, booked, damper;
   std::vector<Index> parameter;
   static constexpr Index plus = lanes, others = plus + nodes + lanes;
 
@@ -45,12 +45,14 @@ struct Chain {
     }
     for (Index g = 0; g < groups; ++g) parameter.push_back(static_cast<Index>(random() % 4));
     for (Index i = 0; i < 4 * lanes; ++i) booked.push_back(draw(0, 1));
+    for (Index i = 0; i < nodes; ++i) damper.push_back(draw(-1, 1));
   }
 
   kernel::AxialArguments axial() {
     return {field[0].data(), field[1].data(), field[2].data(),  field[3].data(),
             field[4].data(), field[5].data(), parameter.data(), palette.data(),
-            force[0].data(), force[1].data(), force[2].data(),  booked.data()};
+            force[0].data(), force[1].data(), force[2].data(),  booked.data(),
+            damper.data(),   nullptr,         nullptr,          1e-6};
   }
   kernel::NodeArguments node() {
     return {field[0].data(), field[1].data(), field[2].data(),     field[3].data(),
@@ -81,20 +83,27 @@ struct Update {
   bool ledger() const { return damping == Damping::booked; }
 };
 
-// The plain reference: element k joins nodes k and k + 1.
-void compute(Chain& c, bool ledger) {
+// The plain reference: element k joins nodes k and k + 1. Returns how many turn taut or slack.
+int compute(Chain& c, bool ledger) {
+  int switched = 0;
   const kernel::AxialArguments g = c.axial();
   for (Index k = 0; k < nodes; ++k) {
     const Index group = k / lanes, lane = k % lanes;
     const double* const row = g.palette + 3 * lanes * g.parameter[group] + lane;
     const plain::V3 r{g.x[k + 1] - g.x[k], g.y[k + 1] - g.y[k], g.z[k + 1] - g.z[k]};
     const plain::V3 v{g.vx[k + 1] - g.vx[k], g.vy[k + 1] - g.vy[k], g.vz[k + 1] - g.vz[k]};
-    const plain::Axial item = plain::axial_law(dot(r, r), dot(r, v), row[0], row[lanes], row[2 * lanes]);
+    const plain::Axial item =
+        plain::axial_law(dot(r, r), dot(r, v), row[0], row[lanes], row[2 * lanes], g.dt);
     g.fx[Chain::plus + k] = item.per_length * r.x;
     g.fy[Chain::plus + k] = item.per_length * r.y;
     g.fz[Chain::plus + k] = item.per_length * r.z;
-    if (ledger) g.booked[(first + k) / kernel::grain * lanes + lane] += item.power;
+    switched += item.spare < 0;
+    if (!ledger) continue;
+    double& before = g.damper[k];
+    g.booked[(first + k) / kernel::grain * lanes + lane] += 0.5 * (item.damper + before) * item.rate;
+    before = item.damper;
   }
+  return switched;
 }
 
 // Returns the greatest squared speed.
@@ -123,6 +132,7 @@ double move(Chain& c, const kernel::Stretch& s, bool gravity) {
 void expect_same(const Chain& a, const Chain& b, Index forces_from) {
   for (std::size_t f = 0; f < 6; ++f) EXPECT_EQ(a.field[f], b.field[f]) << "field " << f;
   EXPECT_EQ(a.booked, b.booked);
+  EXPECT_EQ(a.damper, b.damper);
   for (std::size_t axis = 0; axis < 3; ++axis)
     for (Index k = forces_from; k < nodes; ++k) {
       const auto i = static_cast<std::size_t>(Chain::plus + k);
@@ -147,14 +157,16 @@ TEST_P(ChainUpdate, HasTheBitsOfSingleElementsAndNodes) {
   const auto one_pass = kernels().update_chain[u.damped()][u.ledger()][u.gravity][u.watch];
   EXPECT_EQ(one_pass != nullptr, std::string(kernels().isa) == "v4") << "the set that has it";
   Chain single(u.damped()), two(u.damped()), one(u.damped());
+  int switched = 0;
   for (int step = 0; step < 3; ++step) {
-    compute(single, u.ledger());
+    switched += compute(single, u.ledger());
     const double greatest = move(single, gathered, u.gravity), watched = u.watch ? greatest : 0;
     spans(two.axial(), &span, 0, 1);
     EXPECT_EQ(move_nodes(two.node(), &gathered, 0, 1), watched);
     if (!one_pass) continue;
     EXPECT_EQ(one_pass(one.axial(), one.node(), span, gathered), watched);
   }
+  EXPECT_GT(switched, 0) << "some turn taut or slack";
   EXPECT_NE(single.booked == Chain(u.damped()).booked, u.ledger());
   expect_same(single, two, 0);
   if (one_pass) expect_same(single, one, nodes - lanes);  // what the node behind the chain takes

@@ -95,16 +95,17 @@ Scene pulled_ring(const Sets& more = {}) {
   return read("ring_pull", sets);
 }
 
-TEST(EnergyOrder, FirstWithDamping) {
-  for (const double order : orders(plucked_net(0.106), 8e-6, 0.008, 3)) EXPECT_NEAR(order, 1, 0.2);
+TEST(EnergyOrder, SecondWithDamping) {
+  for (const double order : orders(plucked_net(0.106), 8e-6, 0.008, 3)) EXPECT_NEAR(order, 2, 0.3);
 }
 
 TEST(EnergyOrder, SecondWithoutDamping) {
   for (const double order : orders(plucked_net(0), 8e-6, 0.008, 3)) EXPECT_NEAR(order, 2, 0.2);
 }
 
-TEST(EnergyOrder, FirstWithDampingAndContact) {
-  for (const double order : orders(pulled_ring(), 1e-6, 0.004, 3)) EXPECT_NEAR(order, 1, 0.3);
+// What contacts take is booked with the velocity half a step before.
+TEST(EnergyOrder, FirstOrMoreWithDampingAndContact) {
+  for (const double order : orders(pulled_ring(), 1e-6, 0.004, 3)) EXPECT_NEAR(order, 1.2, 0.4);
 }
 
 TEST(EnergyOrder, SecondInContactWithoutDamping) {

@@ -9,7 +9,7 @@ constexpr Index block_size = 2048;  ///< nodes that are computed and moved toget
 constexpr Index grain = 128;        ///< nodes whose elements share one row of the ledger; whole groups
 constexpr Index lanes = 8;          ///< nodes and elements go in groups of so many, whatever the vector width
 constexpr Index ring_scratch = 3584;   ///< numbers that a batch of ring contacts works on
-constexpr Index sliding_scratch = 72;  ///< numbers a joint that sliding joints work on
+constexpr Index sliding_scratch = 88;  ///< numbers a joint that sliding joints work on
 constexpr Index max_terms = 3;         ///< element forces on a node that one pass adds up, in pairs (+, -)
 
 /// Elements whose lower ends are the nodes of whole groups from `node` on; the upper ends lie `step` nodes
@@ -34,9 +34,12 @@ struct Patch {
   Index to, from, count;
 };
 
-/// What elements add to their row of the ledger.
+/// What elements add to their row of the ledger. Power is that between the last step's forces and this one's:
+/// the velocity in between times the mean of both damper forces, which is what a step of central differences
+/// takes from the energy m v(n-1/2).v(n+1/2)/2 + k s(n)^2/2, to the last digit but for an element's turning.
 struct Book {
-  enum Sum { nothing, power, energy };
+  enum Sum { nothing, power, energy, energy_and_power };
+  static constexpr int sums = 4;
 };
 
 struct AxialArguments {
@@ -45,6 +48,11 @@ struct AxialArguments {
   const double* palette;                   ///< row x (k lanes, c lanes, l0 lanes): N/m, N s/m, m
   double *fx, *fy, *fz;                    ///< force: on the element's end a (minus it acts on b), N
   double* booked;                          ///< ledger row x lanes: damper power, W, or elastic energy, J
+  // as long as power is booked:
+  double* damper;       ///< group x lanes: the damper's force in the last step, N
+  double* link_damper;  ///< link: the same
+  double* due;          ///< ledger row x lanes, with elastic energy: damper power up to now, W; null without
+  double dt;            ///< s
 };
 
 /// Nodes that follow each other and whose element forces do so, too: node + k takes the sum of force[plus +
@@ -195,11 +203,15 @@ struct JointState {
   Index passes;       ///< nodes that have passed the ring
   double offset[3];   ///< of the thread's waypoint from the ring's centre, m
   double dissipated;  ///< by dampers beyond straight elements, J; of the whole thread at its first ring
+  // as in the last step, of the first ring in an element
+  Index damped, rings;             ///< that element, and how many rings lay in it; rings 0: not known
+  double damper, straight_damper;  ///< damper force of the element, and of it as a straight one, N
   // as last looked at
   double length;   ///< of its element, m
   double tension;  ///< on both sides of the ring, N
   double energy;   ///< of its element beyond the straight one, J; of several rings at the first
   double along;    ///< unstretched thread from its start to the ring, m: the material coordinate
+  double due;      ///< damper power up to now, W, as `dissipated`
 };
 
 /// How many loads sliding joints wrote on nodes of threads and of the rings' hosts.

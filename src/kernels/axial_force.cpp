@@ -2,6 +2,9 @@
 #include <cstddef>
 
 #include "kernels/axial_law.hpp"
+#ifdef __AVX512F__
+#include "kernels/axial_lanes.hpp"
+#endif
 #include "kernels/kernel_table.hpp"
 
 namespace cinch::CINCH_ISA {
@@ -14,6 +17,9 @@ using kernel::Link;
 using kernel::Patch;
 using kernel::Span;
 
+constexpr bool with_energy(Book::Sum book) { return book == Book::energy || book == Book::energy_and_power; }
+constexpr bool with_power(Book::Sum book) { return book == Book::power || book == Book::energy_and_power; }
+
 // The lower ends of a span's elements and where their forces go. As few addresses as possible: they shall
 // stay in registers.
 struct SpanView {
@@ -21,70 +27,154 @@ struct SpanView {
   double* __restrict fx, * __restrict fy, * __restrict fz;
   const Index* __restrict parameter;
   const double* __restrict palette;
+  double* __restrict damper;
   std::ptrdiff_t step;
+  double dt;
 };
 
-inline SpanView view(const AxialArguments& g, const Span& s) {
-  return {g.x + s.node,  g.y + s.node,   g.z + s.node,   g.vx + s.node,  g.vy + s.node,
-          g.vz + s.node, g.fx + s.force, g.fy + s.force, g.fz + s.force, g.parameter + s.parameter,
-          g.palette,     s.step};
+inline SpanView view(const AxialArguments& g, const Span& s, bool power) {
+  return {g.x + s.node,   g.y + s.node,
+          g.z + s.node,   g.vx + s.node,
+          g.vy + s.node,  g.vz + s.node,
+          g.fx + s.force, g.fy + s.force,
+          g.fz + s.force, g.parameter + s.parameter,
+          g.palette,      power ? g.damper + s.parameter * lanes : nullptr,
+          s.step,         g.dt};
 }
 
-// One group of elements; adds what is booked to `sums`, lane by lane, so that the bits are the same for every
-// vector width. In a chain each upper end is the next lower one.
+// What is summed up goes lane by lane, so that the bits are the same for every vector width.
+#ifdef __AVX512F__
+struct Sums {
+  Group energy, power;
+};
+CINCH_INLINE void read(const double* from, Group& to) { to = load(from); }
+CINCH_INLINE void write(double* to, Group from) { store(to, from); }
+
+CINCH_INLINE Nodes nodes(const SpanView& s, std::ptrdiff_t i) {
+  return {load(s.x + i), load(s.y + i), load(s.z + i), load(s.u + i), load(s.v + i), load(s.w + i)};
+}
+
+// One group. In a chain each upper end is the next lower one.
 template <bool damped, Book::Sum book, bool chain>
-inline void group(const SpanView& s, std::ptrdiff_t number, double* __restrict sums) {
+CINCH_INLINE void group(const SpanView& s, std::ptrdiff_t number, Sums& sums) {
+  const std::ptrdiff_t i = number * lanes;
+  const double* const row = s.palette + 3 * lanes * static_cast<std::ptrdiff_t>(s.parameter[number]);
+  const Taut item = taut(relative(nodes(s, i), nodes(s, i + (chain ? 1 : s.step))), row);
+  const Forces f = force<damped, with_power(book), book == Book::power>(
+      item, row, _mm512_set1_pd(s.dt), with_power(book) ? s.damper + i : nullptr, sums.power);
+  store(s.fx + i, f.x), store(s.fy + i, f.y), store(s.fz + i, f.z);
+  if (with_energy(book)) sums.energy += _mm512_set1_pd(0.5) * load(row) * item.stretch * item.stretch;
+}
+#else
+struct Sums {
+  alignas(64) double energy[lanes], power[lanes];
+};
+inline void read(const double* from, double (&to)[lanes]) {
+  for (Index lane = 0; lane < lanes; ++lane) to[lane] = from[lane];
+}
+inline void write(double* to, const double (&from)[lanes]) {
+  for (Index lane = 0; lane < lanes; ++lane) to[lane] = from[lane];
+}
+
+// The forces of one group, and what belongs into its sums. In a chain each upper end is the next lower one.
+// Returns whether elements of it turn taut or slack.
+template <bool damped, bool chain, bool switching>
+inline bool forces_of_group(const SpanView& s, std::ptrdiff_t number, Sums& energy_and_rate,
+                            double* __restrict damper) {
   const double* __restrict const row =
       s.palette + 3 * lanes * static_cast<std::ptrdiff_t>(s.parameter[number]);
   const std::ptrdiff_t first = number * lanes, step = chain ? 1 : s.step;
-#pragma omp simd
+  double spare = 0;
+#pragma omp simd reduction(min : spare)
   for (std::ptrdiff_t lane = 0; lane < lanes; ++lane) {
     const std::ptrdiff_t i = first + lane, j = i + step;
     const double rx = s.x[j] - s.x[i], ry = s.y[j] - s.y[i], rz = s.z[j] - s.z[i];
     const double rr = rx * rx + ry * ry + rz * rz;
-    const double rv = damped ? rx * (s.u[j] - s.u[i]) + ry * (s.v[j] - s.v[i]) + rz * (s.w[j] - s.w[i]) : 0.0;
-    const Axial item = axial_law(rr, rv, row[lane], damped ? row[lanes + lane] : 0.0, row[2 * lanes + lane]);
+    const double rv = rx * (s.u[j] - s.u[i]) + ry * (s.v[j] - s.v[i]) + rz * (s.w[j] - s.w[i]);
+    const Axial item = axial_law<switching>(rr, rv, row[lane], damped ? row[lanes + lane] : 0.0,
+                                            row[2 * lanes + lane], s.dt);
     s.fx[i] = item.per_length * rx;
     s.fy[i] = item.per_length * ry;
     s.fz[i] = item.per_length * rz;
-    if (book == Book::power) sums[lane] += item.power;
-    if (book == Book::energy) sums[lane] += item.energy;
+    energy_and_rate.energy[lane] = item.energy;
+    energy_and_rate.power[lane] = item.rate;
+    damper[lane] = item.damper;
+    spare = item.spare < spare ? item.spare : spare;
+  }
+  return spare < 0;
+}
+
+// Elements that turn taut or slack are few and cost a division: a group that has some is computed anew.
+template <bool damped, Book::Sum book, bool chain>
+inline void group(const SpanView& s, std::ptrdiff_t number, Sums& sums) {
+  Sums item;
+  alignas(64) double damper[lanes];
+  if (forces_of_group<damped, chain, false>(s, number, item, damper)) [[unlikely]]
+    forces_of_group<damped, chain, true>(s, number, item, damper);
+  double* __restrict const before = with_power(book) ? s.damper + number * lanes : nullptr;
+#pragma omp simd
+  for (std::ptrdiff_t lane = 0; lane < lanes; ++lane) {
+    if (with_energy(book)) sums.energy[lane] += item.energy[lane];
+    if (with_power(book)) sums.power[lane] += 0.5 * (damper[lane] + before[lane]) * item.power[lane];
+    if (book == Book::power) before[lane] = damper[lane];
   }
 }
+#endif
 
 template <bool damped, bool chain>
 inline void groups(const SpanView& s, const Span& span) {
-  for (std::ptrdiff_t i = 0; i < span.groups; ++i) group<damped, Book::nothing, chain>(s, i, nullptr);
+  Sums none;
+  for (std::ptrdiff_t i = 0; i < span.groups; ++i) group<damped, Book::nothing, chain>(s, i, none);
+}
+
+// Row after row of the ledger, whose numbers begin as what is there.
+template <Book::Sum book>
+inline void open_row(const AxialArguments& g, Index row, Sums& sums) {
+  if (with_energy(book)) read(g.booked + row * lanes, sums.energy);
+  if (with_power(book)) read((with_energy(book) ? g.due : g.booked) + row * lanes, sums.power);
+}
+template <Book::Sum book>
+inline void close_row(const AxialArguments& g, Index row, const Sums& sums) {
+  if (with_energy(book)) write(g.booked + row * lanes, sums.energy);
+  if (with_power(book)) write((with_energy(book) ? g.due : g.booked) + row * lanes, sums.power);
 }
 
 // The same with sums added to the rows of the ledger.
 template <bool damped, Book::Sum book, bool chain>
-inline void booked_groups(const SpanView& s, const Span& span, double* booked) {
+inline void booked_groups(const AxialArguments& g, const Span& span) {
+  const SpanView s = view(g, span, with_power(book));
   constexpr Index row_groups = kernel::grain / lanes;
   const Index first = span.row_node / lanes;  // number of the first group in the whole scene
   for (Index i = 0; i < span.groups;) {
-    const Index row_number = (first + i) / row_groups;
-    const Index row_end = (row_number + 1) * row_groups - first;
+    const Index row = (first + i) / row_groups;
+    const Index row_end = (row + 1) * row_groups - first;
     const Index end = row_end < span.groups ? row_end : span.groups;
-    double* __restrict const row = booked + row_number * lanes;
-    alignas(64) double sums[lanes];
-    for (Index lane = 0; lane < lanes; ++lane) sums[lane] = row[lane];
+    Sums sums;
+    open_row<book>(g, row, sums);
     for (; i < end; ++i) group<damped, book, chain>(s, i, sums);
-    for (Index lane = 0; lane < lanes; ++lane) row[lane] = sums[lane];
+    close_row<book>(g, row, sums);
   }
 }
 
 template <bool damped, Book::Sum book, bool chain>
 inline void compute(const AxialArguments& g, const Span& span) {
-  if (book != Book::nothing && span.row_node >= 0)
-    booked_groups<damped, book, chain>(view(g, span), span, g.booked);
-  else groups<damped, chain>(view(g, span), span);
+  if (book != Book::nothing && span.row_node >= 0) booked_groups<damped, book, chain>(g, span);
+  else groups<damped, chain>(view(g, span, false), span);
 }
 
 template <bool damped, Book::Sum book>
 void axial_spans(const AxialArguments& g, const Span* spans, Index begin, Index end) {
   for (Index i = begin; i < end; ++i)
     spans[i].step == 1 ? compute<damped, book, true>(g, spans[i]) : compute<damped, book, false>(g, spans[i]);
+}
+
+template <Book::Sum book>
+inline void book_link(const AxialArguments& g, const Link& l, const Axial& item, double& before) {
+  double& row = g.booked[l.row * lanes];
+  if (with_energy(book)) row += item.energy;
+  if (!with_power(book)) return;
+  (book == Book::power ? row : g.due[l.row * lanes]) += 0.5 * (item.damper + before) * item.rate;
+  if (book == Book::power) before = item.damper;
 }
 
 template <bool damped, Book::Sum book>
@@ -94,12 +184,11 @@ void axial_links(const AxialArguments& g, const Link* links, Index begin, Index 
     const V3 r{g.x[l.b] - g.x[l.a], g.y[l.b] - g.y[l.a], g.z[l.b] - g.z[l.a]};
     const V3 v{g.vx[l.b] - g.vx[l.a], g.vy[l.b] - g.vy[l.a], g.vz[l.b] - g.vz[l.a]};
     const Axial item =
-        axial_law(dot(r, r), damped ? dot(r, v) : 0.0, l.stiffness, damped ? l.damping : 0.0, l.rest_length);
+        axial_law(dot(r, r), dot(r, v), l.stiffness, damped ? l.damping : 0.0, l.rest_length, g.dt);
     g.fx[l.force] = item.per_length * r.x;
     g.fy[l.force] = item.per_length * r.y;
     g.fz[l.force] = item.per_length * r.z;
-    if (book != Book::nothing && l.row >= 0)
-      g.booked[l.row * lanes] += book == Book::power ? item.power : item.energy;
+    if (book != Book::nothing && l.row >= 0) book_link<book>(g, l, item, g.link_damper[i]);
   }
 }
 
@@ -136,6 +225,7 @@ void fill_axial(KernelTable& table) {
   fill<true, Book::nothing>(table);
   fill<true, Book::power>(table);
   fill<true, Book::energy>(table);
+  fill<true, Book::energy_and_power>(table);
   table.patch_forces = patch_forces;
 }
 

@@ -7,10 +7,9 @@
 //
 // axial_force.cpp and node_update.cpp are the reference; the operations on each number and their order are
 // theirs, and so are the bits.
-#include <immintrin.h>
-
 #include <cstddef>
 
+#include "kernels/axial_lanes.hpp"
 #include "kernels/kernel_table.hpp"
 
 namespace cinch::CINCH_ISA {
@@ -21,14 +20,6 @@ using kernel::lanes;
 using kernel::NodeArguments;
 using kernel::Span;
 using kernel::Stretch;
-using Group = __m512d;
-
-// Inlined always: values that go through memory to a function would undo what the pass is for.
-#define CINCH_INLINE [[gnu::always_inline]] inline
-
-CINCH_INLINE Group load(const double* p) { return _mm512_loadu_pd(p); }
-CINCH_INLINE void store(double* p, Group v) { _mm512_storeu_pd(p, v); }
-
 /// Lanes 1 to 7 of `here` and the first one of `next`.
 CINCH_INLINE Group upper(Group here, Group next) {
   return _mm512_castsi512_pd(_mm512_alignr_epi64(_mm512_castpd_si512(next), _mm512_castpd_si512(here), 1));
@@ -39,22 +30,11 @@ CINCH_INLINE Group lower(Group before, Group here) {
   return _mm512_castsi512_pd(_mm512_alignr_epi64(_mm512_castpd_si512(here), _mm512_castpd_si512(before), 7));
 }
 
-struct Nodes {
-  Group x, y, z, u, v, w;
-};
-
-/// Where an element's ends are to each other.
-struct Relative {
-  Group rx, ry, rz, rv, length;
-};
-
-struct Taut {
-  Group rx, ry, rz, rv, stretch, inverse;
-};
-
-struct Forces {
-  Group x, y, z;
-};
+/// Each upper end is the next lower one.
+CINCH_INLINE Nodes upper(const Nodes& here, const Nodes& next) {
+  return {upper(here.x, next.x), upper(here.y, next.y), upper(here.z, next.z),
+          upper(here.u, next.u), upper(here.v, next.v), upper(here.w, next.w)};
+}
 
 /// One chain: its arrays from the first node on, by value, as stores may not seem to change them.
 struct Chain {
@@ -87,40 +67,6 @@ CINCH_INLINE Chain chain(const AxialArguments& g, const NodeArguments& n, const 
 CINCH_INLINE Others others(const double* force, const Stretch& s, double pull) {
   return {
       {force + s.plus[1], force + s.plus[2]}, {force + s.minus[1], force + s.minus[2]}, _mm512_set1_pd(pull)};
-}
-
-template <bool damped>
-CINCH_INLINE Relative relative(const Nodes& a, const Nodes& b) {
-  Relative r;
-  r.rx = upper(a.x, b.x) - a.x, r.ry = upper(a.y, b.y) - a.y, r.rz = upper(a.z, b.z) - a.z;
-  r.length = _mm512_sqrt_pd(r.rx * r.rx + r.ry * r.ry + r.rz * r.rz);
-  r.rv = _mm512_setzero_pd();
-  if (damped)
-    r.rv = r.rx * (upper(a.u, b.u) - a.u) + r.ry * (upper(a.v, b.v) - a.v) + r.rz * (upper(a.w, b.w) - a.w);
-  return r;
-}
-
-CINCH_INLINE Taut taut(const Relative& r, const double* palette) {
-  const Group rest = load(palette + 2 * lanes);
-  const Group length = _mm512_max_pd(r.length, rest);
-  return {r.rx, r.ry, r.rz, r.rv, length - rest, _mm512_set1_pd(1.0) / length};
-}
-
-/// axial_law.hpp; adds the damper's power to `sum`.
-template <bool damped, bool power>
-CINCH_INLINE Forces force(const Taut& t, const double* palette, Group& sum) {
-  const Group zero = _mm512_setzero_pd();
-  const __mmask8 stretched = _mm512_cmp_pd_mask(t.stretch, zero, _CMP_GT_OQ);
-  const Group spring = load(palette) * t.stretch;
-  Group pull = spring, rate = zero;
-  if (damped) {
-    rate = _mm512_maskz_mul_pd(stretched, t.rv, t.inverse);
-    pull = spring + load(palette + lanes) * rate;
-  }
-  const Group tension = _mm512_max_pd(pull, zero);
-  if (power) sum += (tension - spring) * rate;
-  const Group per_length = tension * t.inverse;
-  return {per_length * t.rx, per_length * t.ry, per_length * t.rz};
 }
 
 /// v += dt F/m, x += dt v along one axis for the nodes from number i on; returns the speeds.
@@ -176,16 +122,18 @@ double update(const AxialArguments& g, const NodeArguments& n, const Span& span,
                 load(n.fz + span.force - lanes)};
   Group greatest = _mm512_setzero_pd();
   LedgerRow ledger(g.booked, span, power);
+  double* const damper = power ? g.damper + span.parameter * lanes : nullptr;
   const Nodes second = c.nodes(1);
   Nodes next = c.nodes(upto(2));
-  Taut now = taut(relative<damped>(c.nodes(0), second), c.row(0));
-  Relative ahead = relative<damped>(second, next);
+  Taut now = taut(relative(c.nodes(0), upper(c.nodes(0), second)), c.row(0));
+  Relative ahead = relative(second, upper(second, next));
   for (std::ptrdiff_t k = 0; k < groups; ++k) {
     const Nodes far = c.nodes(upto(k + 3));
-    const Relative behind = relative<damped>(next, far);
+    const Relative behind = relative(next, upper(next, far));
     const Taut soon = taut(ahead, row(k + 1));
-    const Forces here = force<damped, power>(now, c.row(k), ledger.sum);
     const std::ptrdiff_t i = k * lanes;
+    const Forces here =
+        force<damped, power, power>(now, c.row(k), dt, power ? damper + i : nullptr, ledger.sum);
     const Group scale = load(c.scale + i);
     const Group u = move<gravity, terms>(c.x, c.u, i, here.x - lower(before.x, here.x), x, scale, dt);
     const Group v = move<gravity, terms>(c.y, c.v, i, here.y - lower(before.y, here.y), y, scale, dt);

@@ -9,9 +9,11 @@ namespace cinch {
 struct KernelTable {
   const char* isa;  ///< "base" (x86-64, or whatever the compiler targets), "v3", "v4"
   /// [damped][what is booked]: element forces of spans. Without damping there is no power to book.
-  void (*axial_spans[2][3])(const kernel::AxialArguments&, const kernel::Span*, Index begin, Index end);
+  void (*axial_spans[2][kernel::Book::sums])(const kernel::AxialArguments&, const kernel::Span*, Index begin,
+                                             Index end);
   /// [damped][what is booked]: element forces of links.
-  void (*axial_links[2][3])(const kernel::AxialArguments&, const kernel::Link*, Index begin, Index end);
+  void (*axial_links[2][kernel::Book::sums])(const kernel::AxialArguments&, const kernel::Link*, Index begin,
+                                             Index end);
   void (*patch_forces)(const kernel::AxialArguments&, const kernel::Patch*, Index begin, Index end);
   /// [gravity][watch]: gathers element forces and moves nodes; returns the greatest squared speed, if
   /// watched.

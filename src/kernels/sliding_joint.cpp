@@ -17,6 +17,7 @@
 // second order.
 //
 // Elements are computed as straight ones with all the others. What is added here is the difference.
+#include "kernels/axial_law.hpp"
 #include "kernels/contact_item.hpp"
 #include "kernels/kernel_table.hpp"
 #include "kernels/ring_tally.hpp"
@@ -47,9 +48,11 @@ struct Leg {
 struct Way {
   Leg before_it;  // from the last waypoint (or node) to the joint's
   // of the first joint in an element:
-  Leg last, straight;  // from the last waypoint to the node; from node to node
-  double length;       // of the whole way, m
-  bool idle;           // its rings change nothing of its pull
+  Leg last, direct;              // from the last waypoint to the node; from node to node
+  double length;                 // of the whole way, m
+  double damper, direct_damper;  // forces of the dampers along both, N
+  bool straight;                 // leads straight from node to node
+  bool idle;                     // its rings change nothing of its pull
 };
 
 // What a call works on, for each joint.
@@ -159,9 +162,9 @@ inline double length_by_centers(const Slide& s, const Group& group, V3 a, V3 b) 
 }
 
 // Finds legs and length of a group from its waypoints.
-inline void measure_way(const Slide& s, const Group& group, V3 a, V3 b, bool straight) {
+inline void measure_way(const Slide& s, const Group& group, V3 a, V3 b) {
   Way& first = s.work[group.first].way;
-  first.straight = leg(a, b, 0);
+  first.direct = leg(a, b, 0);
   V3 from = a;
   double length = 0;
   for (Index j = group.first; j < group.last; ++j) {
@@ -171,8 +174,14 @@ inline void measure_way(const Slide& s, const Group& group, V3 a, V3 b, bool str
     from = to;
   }
   first.last = leg(from, b, 0);
-  first.length = straight ? first.straight.length : length + first.last.length;
-  if (straight) first.before_it.unit = first.last.unit = first.straight.unit;
+  first.length = first.straight ? first.direct.length : length + first.last.length;
+  if (first.straight) first.before_it.unit = first.last.unit = first.direct.unit;
+}
+
+// Whether the dampers of the last step took other than those of a straight element: then power is still due.
+inline bool owes_power(const Slide& s, const Group& group) {
+  const JointState& first = s.state(group.first);
+  return first.rings > 0 && first.damper != first.straight_damper;
 }
 
 // Finds the way of a group. In a step, nobody asks for that of one that is straight or, by the rings'
@@ -180,20 +189,20 @@ inline void measure_way(const Slide& s, const Group& group, V3 a, V3 b, bool str
 inline void find_way(const Slide& s, const Group& group) {
   const V3 a = s.place(group.element), b = s.place(group.element + 1);
   Way& first = s.work[group.first].way;
-  const bool step = s.g.contact.dt > 0;
-  first.idle = step && length_by_centers(s, group, a, b) <= s.thread.rest_length;
+  const bool may_idle = s.g.contact.dt > 0 && !owes_power(s, group);
+  first.straight = false;
+  first.idle = may_idle && length_by_centers(s, group, a, b) <= s.thread.rest_length;
   if (first.idle) return;
-  bool straight = false;
   if (group.last == group.first + 1) {
     const Passage passage =
         shortest_passage(s.work[group.first].host.opening, {a, 0}, {b, 0}, vec(s.state(group.first).offset));
     put(passage.offset, s.state(group.first).offset);
-    straight = passage.straight;
+    first.straight = passage.straight;
   } else {
     find_waypoints(s, group, a, b);
   }
-  first.idle = step && straight;
-  if (!first.idle) measure_way(s, group, a, b, straight);
+  first.idle = may_idle && first.straight;
+  if (!first.idle) measure_way(s, group, a, b);
 }
 
 // ---- nodes that pass
@@ -260,7 +269,7 @@ inline void take_back(const Slide& s, const Passing& p) {
 // Takes the passing if it lowers the energy.
 bool try_passing(const Slide& s, const Passing& p) {
   const double out = s.stretch(length_of(s, p.from));
-  if (!(out > s.stretch(s.work[p.from.first].way.straight.length))) return false;  // it would free nothing
+  if (!(out > s.stretch(s.work[p.from.first].way.direct.length))) return false;  // it would free nothing
   const double in = s.stretch(length_of(s, p.to)), now = std::sqrt(out * out + in * in);
   if (s.stretch(least_length(s, p.to.element, p.j)) >= now) return false;
   if (pass(s, p) < now) {
@@ -297,33 +306,44 @@ bool pass_nodes(const Slide& s) {
 
 // ---- forces
 
-// What an element with rings, or the same element as a straight one, pulls with.
+// What an element with rings, or the same element as a straight one, pulls with: the law of axial_law.hpp
+// for the length of its way.
 struct Pull {
-  double spring = 0, tension = 0, rate = 0;  // N, N, m/s
-  double energy = 0;                         // J
+  double tension = 0, damper = 0, rate = 0;  // N, N, m/s
+  double energy = 0, storing = 0;            // J; W, of the energy
 
-  Pull(const Slide& s, double length, double length_rate) {
-    const double stretch = s.stretch(length);
+  Pull(const Slide& s, double length, double length_rate) : rate(length_rate) {
+    const double stretch = s.stretch(length), h = std::fabs(rate) * s.g.contact.step;
     if (!(stretch > 0)) return;
-    rate = length_rate;
-    spring = s.thread.stiffness * stretch;
+    const double full = s.thread.stiffness * stretch;
+    const double spring = stretch < h ? spring_at_switch(s.thread.stiffness, stretch, h) : full;
     const double pull = spring + s.thread.damping * rate;
     tension = pull > 0 ? pull : 0.0;
-    energy = 0.5 * spring * stretch;
+    damper = tension - spring;
+    energy = 0.5 * full * stretch;
+    storing = full * rate;
   }
-  double power() const { return (tension - spring) * rate; }
 };
 
 // What some elements with rings have beyond straight ones.
 struct Beyond {
-  double energy = 0, rate = 0, power = 0;  // J; W, of the energy; W, dissipated
+  double energy = 0, storing = 0, power = 0;  // J; W, of the energy; W, dissipated: see kernel::Book
 
-  void add(const Pull& with, const Pull& straight, double weight) {
+  void add(const Pull& with, const Pull& straight, const JointState* before, double weight) {
     energy += weight * (with.energy - straight.energy);
-    rate += weight * (with.spring * with.rate - straight.spring * straight.rate);
-    power += weight * (with.power() - straight.power());
+    storing += weight * (with.storing - straight.storing);
+    const double last = before ? before->damper : with.damper;
+    const double last_straight = before ? before->straight_damper : straight.damper;
+    power +=
+        weight * 0.5 * ((with.damper + last) * with.rate - (straight.damper + last_straight) * straight.rate);
   }
 };
+
+// The first joint of a group, if its element had the same rings in the last step.
+inline const JointState* last_step(const Slide& s, const Group& group) {
+  const JointState& first = s.state(group.first);
+  return first.damped == group.element && first.rings == group.last - group.first ? &first : nullptr;
+}
 
 // The unit vector with which the way leaves the waypoint of joint j in `group`.
 inline V3 onward_direction(const Slide& s, const Group& group, Index j) {
@@ -372,9 +392,22 @@ struct Pulls {
 };
 
 inline Pulls pulls_of(const Slide& s, const Group& group) {
-  const Leg& straight = s.work[group.first].way.straight;
-  const double rate = dot(straight.unit, s.speed(group.element + 1) - s.speed(group.element));
-  return {Pull(s, s.work[group.first].way.length, length_rate(s, group)), Pull(s, straight.length, rate)};
+  Way& way = s.work[group.first].way;
+  const double rate = dot(way.direct.unit, s.speed(group.element + 1) - s.speed(group.element));
+  const Pulls pulls{Pull(s, way.length, length_rate(s, group)), Pull(s, way.direct.length, rate)};
+  way.damper = pulls.with.damper, way.direct_damper = pulls.without.damper;
+  return pulls;
+}
+
+// Keeps the dampers' forces for the next step. Of an idle group those are known that are slack.
+void keep_dampers(const Slide& s, const Group& group) {
+  JointState& first = s.state(group.first);
+  const Way& way = s.work[group.first].way;
+  first.damped = group.element;
+  first.rings = way.idle && way.straight ? 0 : group.last - group.first;
+  first.damper = way.idle ? 0.0 : way.damper;
+  first.straight_damper = way.idle || way.straight ? first.damper : way.direct_damper;
+  for (Index j = group.first + 1; j < group.last; ++j) s.state(j).rings = 0;
 }
 
 // What a look wants to know of the rings of a group. Thread is stretched evenly between its nodes.
@@ -395,10 +428,10 @@ void load_group(const Slide& s, const Group& group, double weight, Beyond& beyon
   if (s.work[group.first].way.idle) return;
   const Pulls pulls = pulls_of(s, group);
   const double tension = pulls.with.tension;
-  beyond.add(pulls.with, pulls.without, weight);
+  beyond.add(pulls.with, pulls.without, last_step(s, group), weight);
   if (!(s.g.contact.dt > 0)) note_group(s, group, pulls);
   if (!(tension > 0 || pulls.without.tension > 0)) return;
-  const V3 straight = pulls.without.tension * s.work[group.first].way.straight.unit;
+  const V3 straight = pulls.without.tension * s.work[group.first].way.direct.unit;
   V3 in = s.work[group.first].way.before_it.unit;
   out.threads.add(s.node(group.element), weight * (tension * in - straight));
   for (Index j = group.first; j < group.last; ++j) {
@@ -418,8 +451,9 @@ Beyond beyond_straight(const Slide& s) {
   Beyond sum;
   for (Index j = s.thread.joint_begin; j < s.thread.joint_end; j = s.behind(j)) {
     if (s.work[j].way.idle) continue;
-    const Pulls pulls = pulls_of(s, group_of(s, j));
-    sum.add(pulls.with, pulls.without, 1);
+    const Group group = group_of(s, j);
+    const Pulls pulls = pulls_of(s, group);
+    sum.add(pulls.with, pulls.without, last_step(s, group), 1);
   }
   return sum;
 }
@@ -439,7 +473,7 @@ void load_passing_thread(const Slide& s, Beyond& beyond, SlidingWriter& out) {
   const Beyond now = beyond_straight(s);
   swap_threadings(s);
   const Beyond then = beyond_straight(s);
-  const double gap = now.energy - then.energy, change = s.g.contact.step * (now.rate - then.rate);
+  const double gap = now.energy - then.energy, change = s.g.contact.step * (now.storing - then.storing);
   double share = change < 0 ? 1 - gap / change : 0.5;  // of the step, where the gap was zero
   share = share > 0 ? share < 1 ? share : 1.0 : 0.0;
   const double old = share - 0.5;
@@ -462,7 +496,10 @@ void slide_thread(const SlidingArguments& g, const SlidingThread& thread, Slidin
   Beyond beyond;
   if (g.contact.dt > 0 && pass_nodes(s)) load_passing_thread(s, beyond, out);
   else load_thread(s, 1, beyond, out);
-  if (thread.booked) s.state(thread.joint_begin).dissipated += g.contact.dt * beyond.power;
+  s.state(thread.joint_begin).dissipated += g.contact.dt * beyond.power;
+  if (!(g.contact.dt > 0)) s.state(thread.joint_begin).due = beyond.power;
+  for (Index j = thread.joint_begin; g.contact.dt > 0 && j < thread.joint_end; j = s.behind(j))
+    keep_dampers(s, group_of(s, j));
 }
 
 void note_forces(const SlidingArguments& g) {

@@ -37,6 +37,13 @@ double dissipated_by_contacts(const State& state) {
   return energy;
 }
 
+// Of the dampers since the last step, W.
+double power_due(const Glance& glance, const State& state) {
+  double power = sum(glance.due);
+  for (const kernel::JointState& joint : state.joints) power += joint.due;
+  return power;
+}
+
 double couple_work(const State& state) {
   double work = 0;
   for (const kernel::RingTally& ring : state.rings) work += ring.couple_work;
@@ -47,13 +54,14 @@ void Look::take(Stepper& stepper, State& state, const Assembly& assembly, bool h
   model_ = &stepper.model();
   state_ = &state;
   assembly_ = &assembly;
-  time_ = static_cast<double>(state.step) * stepper.plan().dt;
+  dt_ = stepper.plan().dt;
+  time_ = static_cast<double>(state.step) * dt_;
   share_ = half_step ? 0.5 : 0.0;
   stepper.glance(state, glance_);
-  sum_energies(stepper.plan().dt);
+  sum_energies();
 }
 
-void Look::sum_energies(double dt) {
+void Look::sum_energies() {
   const State& s = *state_;
   const Vec3& g = model_->gravity;
   const kernel::NodeEnergies nodes = kernels().node_energies({s.x.data(),
@@ -75,7 +83,8 @@ void Look::sum_energies(double dt) {
   energy_.elastic = sum(glance_.elastic);
   for (const kernel::JointState& joint : s.joints) energy_.elastic += joint.energy;
   energy_.contact = contact_energy(s);
-  energy_.dissipated_damper = dissipated_by_dampers(s, dt);
+  energy_.dissipated_damper = dissipated_by_dampers(s, dt_);
+  if (share_ > 0) energy_.dissipated_damper += dt_ * power_due(glance_, s);
   energy_.dissipated_contact = dissipated_by_contacts(s);
   energy_.booked_couple = couple_work(s);
 }
@@ -141,7 +150,7 @@ Look::Pull Look::pull(Index element) const {
   const plain::V3 along = plain_vector(r), moving = plain_vector(speed(b) - speed(a));
   const double rest = model_->rest_length[e];
   const plain::Axial item = plain::axial_law(plain::dot(along, along), plain::dot(along, moving),
-                                             model_->stiffness[e], model_->damping[e], rest);
+                                             model_->stiffness[e], model_->damping[e], rest, dt_);
   return {item.tension, (r.norm() - rest) / rest};
 }
 

@@ -48,14 +48,14 @@ class Look {
 
  private:
   Vec3 speed(Index node) const;
-  void sum_energies(double dt);
+  void sum_energies();
   /// The first ring that lies in an element, or null.
   const kernel::JointState* joint_in(Index element) const;
 
   const Model* model_ = nullptr;
   const State* state_ = nullptr;
   const Assembly* assembly_ = nullptr;
-  double time_ = 0, share_ = 0;
+  double time_ = 0, share_ = 0, dt_ = 0;
   Glance glance_;
   Energies energy_;
 };

@@ -63,9 +63,10 @@ std::size_t SlidingJoints::memory() const {
 
 std::size_t Piece::memory() const {
   const ForceReduction& r = reduction_;
-  std::size_t sum = numbering_.memory() + contacts_.memory() + joints_.memory() +
-                    bytes_of(topology_.runs, topology_.slot_element, topology_.links, r.blocks, r.patches,
-                             r.spans, r.links, r.stretches, r.kicks, scale_, share_, palette_, parameter_);
+  std::size_t sum =
+      numbering_.memory() + contacts_.memory() + joints_.memory() +
+      bytes_of(topology_.runs, topology_.slot_element, topology_.links, r.blocks, r.patches, r.spans, r.links,
+               r.stretches, r.kicks, scale_, share_, damper_, link_damper_, palette_, parameter_);
   for (const auto& field : own_fields_) sum += bytes_of(field);
   for (const auto& field : force_) sum += bytes_of(field);
   for (const auto& field : glance_fields_) sum += bytes_of(field);
@@ -79,7 +80,7 @@ std::size_t Stepper::memory_of_pieces() const {
 }
 
 std::size_t Look::memory() const {
-  std::size_t sum = bytes_of(glance_.elastic, glance_.loads);
+  std::size_t sum = bytes_of(glance_.elastic, glance_.due, glance_.loads);
   for (const auto& gain : glance_.gain) sum += bytes_of(gain);
   return sum;
 }

@@ -4,6 +4,7 @@
 #include <cstring>
 #include <string>
 #include <unordered_map>
+#include <utility>
 
 #include "store/fields.hpp"
 
@@ -110,6 +111,11 @@ void Piece::allocate(const Model& model, const std::vector<double>& node_share) 
   for (std::size_t i = 0; i < nodes; ++i)
     if (numbering_.moved(static_cast<Index>(i))) scale_[i] = plan_.dt / model.mass[at(numbering_.global[i])];
   for (auto& f : force_) f.assign(at(reduction_.force_count) * at(levels_), 0.0);
+  if (step_book() == kernel::Book::power) {
+    damper_.assign(parameter_.size() * kernel::lanes, 0.0);
+    link_damper_.assign(reduction_.links.size(), 0.0);
+  }
+  ledger_size_ = at(model.ledger_rows() * kernel::lanes);
   set_contact_ghosts({}, node_share);
 }
 
@@ -169,6 +175,19 @@ void Piece::take(State& state) {
   }
   joints_.take(state);
   bind(state);
+  if (step_book() == kernel::Book::power && !knows_dampers_) find_dampers();
+}
+
+// Steps book what dampers take between the step before and this one. There is none before the first: with
+// dampers that pulled the other way then, it books nothing.
+void Piece::find_dampers() {
+  AlignedVector<double> nowhere(ledger_size_, 0.0);
+  double* const booked = std::exchange(axial_.booked, nowhere.data());
+  for (const Block& block : reduction_.blocks) compute(block, block.span_end, kernel::Book::power);
+  for (auto* forces : {&damper_, &link_damper_})
+    for (double& force : *forces) force = -force;
+  axial_.booked = booked;
+  knows_dampers_ = true;
 }
 
 void Piece::give(State& state) const {
@@ -182,9 +201,10 @@ void Piece::give(State& state) const {
 }
 
 void Piece::bind(State& state) {
-  axial_ = {fields_[0],       fields_[1],       fields_[2],        fields_[3],
-            fields_[4],       fields_[5],       parameter_.data(), palette_.data(),
-            force_[0].data(), force_[1].data(), force_[2].data(),  state.dissipated.data()};
+  axial_ = {fields_[0],       fields_[1],          fields_[2],        fields_[3],
+            fields_[4],       fields_[5],          parameter_.data(), palette_.data(),
+            force_[0].data(), force_[1].data(),    force_[2].data(),  state.dissipated.data(),
+            damper_.data(),   link_damper_.data(), nullptr,           plan_.dt};
   const Vec3 g = plan_.dt * plan_.gravity_acceleration;
   node_ = {fields_[0],
            fields_[1],
@@ -330,7 +350,7 @@ void Piece::lend(Glance& out) {
   }
   node_.x = moved[0], node_.y = moved[1], node_.z = moved[2];
   node_.vx = moved[3], node_.vy = moved[4], node_.vz = moved[5];
-  axial_.booked = out.elastic.data();
+  axial_.booked = out.elastic.data(), axial_.due = out.due.data();
   for (kernel::Reaction*& reaction : reactions_) reaction = &unbooked_;
 }
 
@@ -344,8 +364,9 @@ void Piece::glance(State& state, double time, double motion, Glance& out) {
   lend(out);
   const auto constraints = static_cast<Index>(constraints_.size());
   hold_before(0, constraints);
+  const auto book = out.due.empty() ? kernel::Book::energy : kernel::Book::energy_and_power;
   for (const Block& block : reduction_.blocks) {
-    compute(block, block.span_end, kernel::Book::energy);
+    compute(block, block.span_end, book);
     move(block, block.stretch_begin, false);
   }
   kernels_.load_nodes(node_, contacts_.loads(), contacts_.load_count());

@@ -64,6 +64,7 @@ class Piece {
   void set_parameters(const Model& model);
   void allocate(const Model& model, const std::vector<double>& node_share);
   void bind(State& state);
+  void find_dampers();
   NodeView view() const;
   void use_level(int level);
   void compute(const Block& block, Index span_end, kernel::Book::Sum book);
@@ -95,6 +96,10 @@ class Piece {
   AlignedVector<double> palette_;             ///< row x (k, c, l0) x lanes: see AxialArguments
   std::vector<Index> parameter_;              ///< group, in the order of the runs: its row
   AlignedVector<double> force_[3];            ///< level x force
+  AlignedVector<double> damper_;              ///< group x lanes: the damper's force in the last step, N
+  AlignedVector<double> link_damper_;         ///< link: the same
+  bool knows_dampers_ = false;
+  std::size_t ledger_size_ = 0;
   std::vector<kernel::Held> held_;            ///< constraint
   std::vector<Index> reaction_number_;        ///< constraint: its number in the model; -1: not booked here
   std::vector<kernel::Reaction*> reactions_;  ///< constraint

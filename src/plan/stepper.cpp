@@ -156,7 +156,9 @@ void Stepper::glance(State& state, Glance& out) {
   if (pieces_.empty()) share_out(state);
   if (plan_.contacts() && !contacts_valid_) renew_contacts(state);
   for (auto& gain : out.gain) gain.resize(at(model_->nodes));
-  out.elastic.assign(at(model_->ledger_rows() * kernel::lanes), 0.0);
+  const std::size_t rows = at(model_->ledger_rows() * kernel::lanes);
+  out.elastic.assign(rows, 0.0);
+  out.due.assign(plan_.damped && plan_.ledger ? rows : 0, 0.0);
   const double time = static_cast<double>(state.step) * plan_.dt;
 #pragma omp parallel for num_threads(threads_) schedule(static, 1) if (threads_ > 1)
   for (int p = 0; p < threads_; ++p) pieces_[at(p)]->glance(state, time, motion_, out);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <numeric>
 #include <stdexcept>
 
 #include "oracle/closest.hpp"
@@ -85,6 +86,7 @@ Oracle::Oracle(const cinch::Scene& scene, const cinch::Assembly& assembly)
 void Oracle::start() {
   n_ = contacts_seen_ = 0;
   dissipated_damper_ = dissipated_contact_ = 0;
+  last_damper_.clear();
   activated_ = false;
   set_extent();
   x_.clear();
@@ -114,6 +116,7 @@ void Oracle::set_extent() {
 /// Lays the closing threads along their carriers, with the velocities found there.
 void Oracle::activate() {
   activated_ = true;
+  last_damper_.clear();
   set_extent();
   x_.resize(assembly_.nodes.size());
   v_.resize(assembly_.nodes.size());
@@ -170,7 +173,9 @@ void Oracle::integrate(const Evaluation& now) {
 }
 
 void Oracle::book(const Evaluation& now) {
-  dissipated_damper_ += dt_ * now.damper_power;
+  for (std::size_t e = 0; e < last_damper_.size(); ++e)  // the velocity between two forces does work on both
+    dissipated_damper_ += dt_ * 0.5 * (last_damper_[e] + now.damper[e]) * now.rate[e];
+  last_damper_ = now.damper;
   dissipated_contact_ += dt_ * now.contact_power;
   contacts_seen_ += now.contacts;
   ring_force_ = now.ring_force;
@@ -195,6 +200,8 @@ Evaluation Oracle::evaluate(const std::vector<Vec3>& x, const std::vector<Vec3>&
   const Motion m{x, v};
   Evaluation sum;
   sum.force.assign(x.size(), Vec3::Zero());
+  sum.damper.assign(static_cast<std::size_t>(elements_), 0.0);
+  sum.rate.assign(static_cast<std::size_t>(elements_), 0.0);
   sum.ring_force.assign(assembly_.rings.size(), Vec3::Zero());
   if (scene_.gravity) add_gravity(m, sum);
   for (Index i = 0; i < elements_; ++i) add_element(i, m, sum);
@@ -217,14 +224,18 @@ void Oracle::add_element(Index i, const Motion& m, Evaluation& sum) const {
   const AssemblyElement& e = at(assembly_.elements, i);
   const Vec3 along = at(m.x, e.b) - at(m.x, e.a);
   const double length = along.norm(), stretch = length - e.rest_length;
+  const double rate = along.dot(at(m.v, e.b) - at(m.v, e.a)) / std::max(length, e.rest_length);
+  at(sum.rate, i) = rate;
   if (!(stretch > 0)) return;
-  const double rate = along.dot(at(m.v, e.b) - at(m.v, e.a)) / length;
-  const double spring = e.stiffness * stretch;
+  const double step = std::abs(rate) * dt_;  // what the element grows or shrinks by in a step
+  // a step that makes it taut or slack stores only what it does while taut
+  const double taut_share = stretch < step ? stretch / step : 1.0;
+  const double spring = e.stiffness * stretch * (1 + taut_share) / 2;
   const double tension = std::max(0.0, spring + e.damping * rate);
   at(sum.force, e.a) += tension / length * along;
   at(sum.force, e.b) -= tension / length * along;
-  sum.elastic += 0.5 * spring * stretch;
-  sum.damper_power += (tension - spring) * rate;
+  sum.elastic += 0.5 * e.stiffness * stretch * stretch;
+  at(sum.damper, i) = tension - spring;
 }
 
 // ----------------------------------------------------------------------------------------------------
@@ -379,6 +390,10 @@ void Oracle::push_ball(Index i, const Site& site, double share, Evaluation& sum)
 
 // ----------------------------------------------------------------------------------------------------
 // Results
+
+double Evaluation::damper_power() const {
+  return std::inner_product(damper.begin(), damper.end(), rate.begin(), 0.0);
+}
 
 Result Oracle::result() const {
   const Evaluation now = evaluate(x_, v_);

@@ -27,9 +27,11 @@ struct Evaluation {
   double elastic = 0;            ///< J, in the elements
   double contact = 0;            ///< J, contact potential
   double gravitational = 0;      ///< J, zero for a node at the origin
-  double damper_power = 0;       ///< W, lost in the elements' dampers
+  std::vector<double> damper;    ///< N, force of each element's damper
+  std::vector<double> rate;      ///< m/s, at which each element becomes longer
   double contact_power = 0;      ///< W, lost in contacts
   long contacts = 0;             ///< elements and spheres that touch a ring or a ball
+  double damper_power() const;   ///< W, lost in the elements' dampers
 };
 
 /// State after n steps. Before the closing time the vectors hold the nodes that exist by then.
@@ -108,6 +110,7 @@ class Oracle {
 
   std::vector<Vec3> x_, v_;  // x_n, v_{n-1/2}
   std::vector<Vec3> ring_force_;
+  std::vector<double> last_damper_;  ///< N, by element; empty before the first step of a phase
   double dissipated_damper_ = 0, dissipated_contact_ = 0;
   long contacts_seen_ = 0;
 };

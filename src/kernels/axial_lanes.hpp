@@ -1,0 +1,81 @@
+// The law of axial_law.hpp for eight elements at once, by hand (AVX-512): the operations on each number and
+// their order are the same, and so are the bits.
+//
+// Elements that turn taut or slack in a step are few, and cost a division: it is done only for a group that
+// has some. Compilers do not see that.
+#pragma once
+#pragma GCC diagnostic push  // false alarms, GCC bug 105593
+#pragma GCC diagnostic ignored "-Wuninitialized"
+#pragma GCC diagnostic ignored "-Wmaybe-uninitialized"
+#include <immintrin.h>
+#pragma GCC diagnostic pop
+
+#include "kernels/arguments.hpp"
+
+namespace cinch::CINCH_ISA {
+
+using Group = __m512d;
+
+// Inlined always: values that go through memory to a function would undo what the pass is for.
+#define CINCH_INLINE [[gnu::always_inline]] inline
+
+CINCH_INLINE Group load(const double* p) { return _mm512_loadu_pd(p); }
+CINCH_INLINE void store(double* p, Group v) { _mm512_storeu_pd(p, v); }
+
+struct Nodes {
+  Group x, y, z, u, v, w;
+};
+
+/// Where an element's ends are to each other.
+struct Relative {
+  Group rx, ry, rz, rv, length;
+};
+
+struct Taut {
+  Group rx, ry, rz, rv, stretch, inverse;
+};
+
+struct Forces {
+  Group x, y, z;
+};
+
+CINCH_INLINE Relative relative(const Nodes& a, const Nodes& b) {
+  Relative r;
+  r.rx = b.x - a.x, r.ry = b.y - a.y, r.rz = b.z - a.z;
+  r.length = _mm512_sqrt_pd(r.rx * r.rx + r.ry * r.ry + r.rz * r.rz);
+  r.rv = r.rx * (b.u - a.u) + r.ry * (b.v - a.v) + r.rz * (b.w - a.w);
+  return r;
+}
+
+CINCH_INLINE Taut taut(const Relative& r, const double* palette) {
+  const Group rest = load(palette + 2 * kernel::lanes);
+  const Group length = _mm512_max_pd(r.length, rest);
+  return {r.rx, r.ry, r.rz, r.rv, length - rest, _mm512_set1_pd(1.0) / length};
+}
+
+/// The forces; with `power` adds that of the damper, whose last force stands at `damper`, to `sum`, and with
+/// `keep` puts this one there.
+template <bool damped, bool power, bool keep>
+CINCH_INLINE Forces force(const Taut& t, const double* palette, Group dt, double* damper, Group& sum) {
+  const Group zero = _mm512_setzero_pd();
+  const __mmask8 stretched = _mm512_cmp_pd_mask(t.stretch, zero, _CMP_GT_OQ);
+  const Group rate = t.rv * t.inverse, h = _mm512_abs_pd(rate) * dt;
+  Group spring = load(palette) * t.stretch;
+  const __mmask8 switching = _mm512_mask_cmp_pd_mask(stretched, t.stretch, h, _CMP_LT_OQ);
+  if (switching) [[unlikely]] {
+    const Group half = _mm512_set1_pd(0.5), one = _mm512_set1_pd(1.0);
+    spring = _mm512_mask_mul_pd(spring, switching, spring, half * (one + t.stretch / h));
+  }
+  Group pull = spring;
+  if (damped) pull = spring + _mm512_maskz_mul_pd(stretched, load(palette + kernel::lanes), rate);
+  const Group tension = _mm512_max_pd(pull, zero);
+  if (power) {
+    const Group drag = tension - spring;
+    sum += _mm512_set1_pd(0.5) * (drag + load(damper)) * rate;
+    if (keep) store(damper, drag);
+  }
+  const Group per_length = tension * t.inverse;
+  return {per_length * t.rx, per_length * t.ry, per_length * t.rz};
+}
+
+}  // namespace cinch::CINCH_ISA
