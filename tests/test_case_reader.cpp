@@ -211,6 +211,48 @@ TEST(CaseReader, WordsBecomeTheirEnumerators) {
   EXPECT_EQ(scene.probes[1].quantity, ProbeQuantity::tension);
 }
 
+const std::string two_rings = minimal + "[ring.a]\ncenter_m = [0.3, 0, 0]\nnormal = [1, 0, 0]\n" + ring_body +
+                              "[ring.b]\njoint = \"contact\"\ncenter_m = [0.6, 0, 0]\nnormal = [1, 0, 0]\n" +
+                              ring_body;
+
+TEST(CaseReader, AMethodIsASetOfDefaults) {
+  const Scene contact = parse_case(two_rings, "t.toml");
+  EXPECT_EQ(contact.method, Method::contact);
+  EXPECT_EQ(contact.rings[0].joint, RingJoint::contact);
+
+  const Scene paper = parse_case(two_rings, "t.toml", {{"case.method", "\"paper\""}});
+  EXPECT_EQ(paper.contact.couple, RingCouple::paper);
+  EXPECT_EQ(paper.contact.distance, DistanceMethod::golden);
+  EXPECT_EQ(paper.contact.shared_node, SharedNode::paper);
+  EXPECT_EQ(paper.time.step, 1e-6);
+  EXPECT_EQ(paper.rings[0].joint, RingJoint::contact);
+
+  const Scene sliding = parse_case(two_rings, "t.toml", {{"case.method", "\"sliding\""}});
+  EXPECT_EQ(sliding.rings[0].joint, RingJoint::sliding);
+  EXPECT_EQ(sliding.rings[1].joint, RingJoint::contact) << "a key that is given goes first";
+  EXPECT_EQ(sliding.contact.couple, RingCouple::conserving);
+  EXPECT_EQ(sliding.time.step, 0);
+}
+
+TEST(CaseReader, TheResolvedTextOfAMethodReadsAsTheSameScene) {
+  const Scene paper = parse_case(two_rings, "t.toml", {{"case.method", "\"paper\""}});
+  EXPECT_NE(paper.resolved_toml.find("step_s = 1e-06"), std::string::npos);
+  const Scene again = parse_case(paper.resolved_toml, "again.toml");
+  EXPECT_EQ(again.resolved_toml, paper.resolved_toml);
+}
+
+TEST(CaseReader, MethodsOfRowsOfRings) {
+  const fs::path file = source_dir / "cases" / "capture.toml";
+  for (const Ring& ring : read_case(file, {{"case.method", "\"sliding\""}}).rings)
+    EXPECT_EQ(ring.joint, RingJoint::sliding);
+}
+
+TEST(CaseReader, AnUnknownMethodIsRefused) {
+  expect_error(
+      "schema = 1\n[case]\nmethod = \"best\"\n" + minimal.substr(11),
+      {"t.toml:3:10: error: case.method: found \"best\"", "allowed: \"contact\", \"sliding\" or \"paper\""});
+}
+
 TEST(CaseReader, PartsKeepTheOrderOfTheFile) {
   std::string text = head + aramid;
   for (const std::string name : {"zeta", "alpha", "mid"})

@@ -127,13 +127,14 @@ const SectionValues* CaseBuilder::read_single(const Section<Part>& section, Part
     return nullptr;
   }
   const Place place = member ? member->key_place : Place{};
-  sections_.push_back(
-      cinch::read_section(section, section.name, place, member ? member->value : absent, diagnostics_, part));
+  sections_.push_back(cinch::read_section(section, section.name, place, member ? member->value : absent,
+                                          method_, diagnostics_, part));
   return &sections_.back();
 }
 
 void CaseBuilder::read_run() {
-  read_single(case_section(), scene_);
+  if (const SectionValues* words = read_single(case_section(), scene_))
+    if (const Entry* method = words->find("method")) method_ = method->value.toml.text;
   if (const SectionValues* time = read_single(time_section(), scene_.time))
     scene_.time.source.text = diagnostics_.where(time->place_of("step_s"));
   read_single(output_section(), scene_.output);

@@ -62,6 +62,7 @@ class CaseBuilder {
   References references_;
   std::deque<SectionValues> sections_;  // in the order of the resolved case; references to them stay valid
   std::set<std::string> ring_names_;
+  std::string method_;  // on which defaults depend
 };
 
 template <class Part>
@@ -69,7 +70,7 @@ SectionValues& CaseBuilder::read_part(const Section<Part>& section, const TomlMe
   part.name = member.key;
   part.source.text = diagnostics_.where(member.key_place);
   sections_.push_back(cinch::read_section(section, section.name + "." + toml_key(member.key),
-                                          member.key_place, member.value, diagnostics_, part));
+                                          member.key_place, member.value, method_, diagnostics_, part));
   return sections_.back();
 }
 

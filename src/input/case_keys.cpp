@@ -22,6 +22,16 @@ const Section<Scene>& case_section() {
             .fallback = "\"\"",
             .meaning = "What the case shows and what to expect."},
            into(&Scene::about)},
+          {{.name = "method",
+            .type = choice,
+            .words = {"contact", "sliding", "paper"},
+            .fallback = "\"contact\"",
+            .meaning =
+                "How threads go through rings, as a set of defaults for all of the case: `contact` with "
+                "wires, `sliding` joints, or the `paper`'s contact with its step. Keys that are given "
+                "go first.",
+            .source = "README compares their errors and run times"},
+           into(&Scene::method)},
       });
   return section;
 }
@@ -41,6 +51,7 @@ const Section<TimeSpec>& time_section() {
             .range = above(0, 1),
             .words = {"auto"},
             .fallback = "\"auto\"",
+            .by_method = {{"paper", "1e-6"}},
             .meaning = "Time step. `auto`: `safety` times the stable step of the scene.",
             .source = "the paper's step (Sec. 5.3) is 1e-6 s; whether it is stable depends on the scene"},
            [](TimeSpec& time, const Value& value) { time.step = value.is_word ? 0 : value.number; }},
@@ -175,6 +186,7 @@ const Section<Contact>& contact_section() {
             .type = choice,
             .words = {"conserving", "paper"},
             .fallback = "\"conserving\"",
+            .by_method = {{"paper", "\"paper\""}},
             .meaning = "Couple of the contact force about a ring's centre: handed to the host element, or "
                        "dropped as "
                        "in eq. (12).",
@@ -184,6 +196,7 @@ const Section<Contact>& contact_section() {
             .type = choice,
             .words = {"exact", "golden"},
             .fallback = "\"exact\"",
+            .by_method = {{"paper", "\"golden\""}},
             .meaning = "Closest point of element and ring, eq. (4): exact roots, or golden section search.",
             .source = "golden section is the paper's method; it misses the second minimum of long elements"},
            into(&Contact::distance)},
@@ -191,6 +204,7 @@ const Section<Contact>& contact_section() {
             .type = choice,
             .words = {"once", "paper"},
             .fallback = "\"once\"",
+            .by_method = {{"paper", "\"paper\""}},
             .meaning = "A contact at a node shared by two elements: counted once, or by each (0 <= t <= 1, "
                        "Sec. 4.1).",
             .source = "the paper's rule doubles the force at nodes"},

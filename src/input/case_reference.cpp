@@ -32,7 +32,11 @@ std::string default_text(const KeyInfo& key) {
   if (key.required && !key.not_with.empty()) return "required without `" + key.not_with + "`";
   if (key.required && !key.only_with.empty()) return "required with `" + key.only_with + "`";
   if (key.required) return "**required**";
-  if (!key.fallback.empty()) return "`" + key.fallback + "`";
+  if (!key.fallback.empty()) {
+    std::string text = "`" + key.fallback + "`";
+    for (const auto& [method, fallback] : key.by_method) text += ", with `" + method + "` `" + fallback + "`";
+    return text;
+  }
   return key.fallback_note.empty() ? "none" : key.fallback_note;
 }
 

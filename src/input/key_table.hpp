@@ -2,6 +2,7 @@
 // case and the reference (cases/README.md).
 #pragma once
 #include <functional>
+#include <map>
 #include <optional>
 #include <string>
 #include <type_traits>
@@ -63,7 +64,8 @@ struct KeyInfo {
   std::vector<std::string> words{};  ///< of a choice; or the word allowed instead of a number or list
   unsigned refers = 0;               ///< what its names may refer to: Form values or'ed (references.hpp)
   bool required = false;
-  std::string fallback{};       ///< default in TOML syntax; "": none
+  std::string fallback{};                          ///< default in TOML syntax; "": none
+  std::map<std::string, std::string> by_method{};  ///< default with that `case.method`, where it is another
   std::string fallback_note{};  ///< said in the reference where the default depends on other keys
   std::string only_with{};      ///< the key means something only beside this other key
   std::string not_with{};       ///< the key excludes this other key (and is not required beside it)

@@ -75,7 +75,7 @@ NodeSpec CaseBuilder::read_node(const std::string& path, const TomlMember& membe
   }
   node.source.text = diagnostics_.where(member.key_place);
   sections_.push_back(
-      cinch::read_section(node_section(), path, member.key_place, member.value, diagnostics_, node));
+      cinch::read_section(node_section(), path, member.key_place, member.value, method_, diagnostics_, node));
   check_guide(sections_.back(), node.support);
   return node;
 }

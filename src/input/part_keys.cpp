@@ -62,6 +62,7 @@ std::vector<Key<Part>> ring_keys(Get get) {
         .type = choice,
         .words = {"contact", "sliding"},
         .fallback = "\"contact\"",
+        .by_method = {{"sliding", "\"sliding\""}},
         .meaning =
             "How threads go through it: `contact` with its wire, or `sliding` without friction, the ring "
             "inside "

@@ -135,8 +135,8 @@ bool is_table(const KeyInfo& key) { return key.type == KeyType::node || key.type
 // A section while it is read.
 class Reading {
  public:
-  Reading(SectionValues& values, const TomlValue& table, Diagnostics& diagnostics)
-      : values_(values), info_(*values.info), table_(table), diagnostics_(diagnostics) {}
+  Reading(SectionValues& values, const TomlValue& table, const std::string& method, Diagnostics& diagnostics)
+      : values_(values), info_(*values.info), table_(table), method_(method), diagnostics_(diagnostics) {}
 
   void run() {
     for (const TomlMember& member : table_.members) refuse_unknown(member);
@@ -190,7 +190,9 @@ class Reading {
     Entry entry{&key, row, {}, false, values_.place};
     std::string problem;
     Place place = values_.place;
-    if (check_value(key, parse_toml_value(key.fallback, place), entry.value, problem, place))
+    const auto of_method = key.by_method.find(method_);
+    const std::string& fallback = of_method != key.by_method.end() ? of_method->second : key.fallback;
+    if (check_value(key, parse_toml_value(fallback, place), entry.value, problem, place))
       values_.entries.push_back(entry);
     else fail(place, "default of " + full_name(key) + ": " + problem);
   }
@@ -216,6 +218,7 @@ class Reading {
   SectionValues& values_;
   const SectionInfo& info_;
   const TomlValue& table_;
+  const std::string& method_;
   Diagnostics& diagnostics_;
 };
 
@@ -266,9 +269,9 @@ bool check_value(const KeyInfo& key, const TomlValue& found, Value& value, std::
 }
 
 SectionValues read_section(const SectionInfo& info, const std::string& path, Place place,
-                           const TomlValue& table, Diagnostics& diagnostics) {
+                           const TomlValue& table, const std::string& method, Diagnostics& diagnostics) {
   SectionValues values{path, &info, place, {}, true};
-  Reading(values, table, diagnostics).run();
+  Reading(values, table, method, diagnostics).run();
   return values;
 }
 

@@ -39,15 +39,16 @@ struct SectionValues {
 bool check_value(const KeyInfo& key, const TomlValue& found, Value& value, std::string& problem,
                  Place& place);
 
-/// Checks a table against its section.
+/// Checks a table against its section; `method`: that of the case, on which defaults may depend.
 SectionValues read_section(const SectionInfo& info, const std::string& path, Place place,
-                           const TomlValue& table, Diagnostics& diagnostics);
+                           const TomlValue& table, const std::string& method, Diagnostics& diagnostics);
 
 /// The same, and fills `part`.
 template <class Part>
 SectionValues read_section(const Section<Part>& section, const std::string& path, Place place,
-                           const TomlValue& table, Diagnostics& diagnostics, Part& part) {
-  SectionValues values = read_section(section, path, place, table, diagnostics);
+                           const TomlValue& table, const std::string& method, Diagnostics& diagnostics,
+                           Part& part) {
+  SectionValues values = read_section(section, path, place, table, method, diagnostics);
   for (const Entry& entry : values.entries)
     if (const auto& set = section.rows[entry.row].set) set(part, entry.value);
   return values;
