@@ -115,6 +115,7 @@ class Run {
       recorder_.probes(look.time(), row);
     }
     if (frame_due) write(simulation_.frame(look));
+    simulation_.check_energy(look);  // what showed it is kept
   }
 
   void record_frame() {

@@ -75,6 +75,13 @@ const Section<TimeSpec>& time_section() {
             .meaning = "A node faster than this stops the run.",
             .source = "far above any speed of a sound run, far below overflow"},
            into(&TimeSpec::speed_limit)},
+          {{.name = "residual_limit",
+            .range = above(0),
+            .fallback = "0.05",
+            .meaning = "An energy residual above this share (see `cinch info`) stops the run, wherever it is "
+                       "looked at: at frames and samples of probes. Not with `allow_unstable`.",
+            .source = "sound runs stay below 0.005"},
+           into(&TimeSpec::residual_limit)},
       });
   return section;
 }

@@ -109,7 +109,7 @@ struct EnergyArguments {
   Index nodes;
 };
 
-/// Kinetic energy at velocities v + share gain, and that in the field of gravity, sum of -m g.x; J.
+/// Kinetic energy m v.(v + 2 share gain)/2, and that in the field of gravity, sum of -m g.x; J.
 struct NodeEnergies {
   double kinetic, gravity;
 };

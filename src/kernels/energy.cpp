@@ -1,5 +1,7 @@
-// Energies of nodes at the time of a look: the velocity lies half a step back, and the look knows what the
-// next step would add to it, so v(n) = v(n-1/2) + 1/2 (v(n+1/2) - v(n-1/2)).
+// Energies of nodes at the time of a look. The velocity lies half a step back, and the look knows what the
+// next step would add to it. The kinetic energy is m v(n-1/2).v(n+1/2)/2: with the energy of the springs at
+// n, central differences keep it to the last digit as long as no spring turns slack, while that of the mean
+// velocity, dt^2 F^2/(8 m) higher, trembles.
 #include <cstddef>
 
 #include "kernels/kernel_table.hpp"
@@ -16,10 +18,10 @@ inline void add_group(const EnergyArguments& g, std::ptrdiff_t first, std::ptrdi
 #pragma omp simd
   for (std::ptrdiff_t lane = 0; lane < (whole ? lanes : count); ++lane) {
     const std::ptrdiff_t i = first + lane;
-    const double u = g.vx[i] + g.share * g.gain_x[i], v = g.vy[i] + g.share * g.gain_y[i],
-                 w = g.vz[i] + g.share * g.gain_z[i];
-    const double m = g.mass[i];
-    kinetic[lane] += 0.5 * m * (u * u + v * v + w * w);
+    const double u = g.vx[i], v = g.vy[i], w = g.vz[i], m = g.mass[i], twice = 2 * g.share;
+    kinetic[lane] +=
+        0.5 * m *
+        (u * (u + twice * g.gain_x[i]) + v * (v + twice * g.gain_y[i]) + w * (w + twice * g.gain_z[i]));
     gravity[lane] -= m * (g.gravity[0] * g.x[i] + g.gravity[1] * g.y[i] + g.gravity[2] * g.z[i]);
   }
 }

@@ -10,7 +10,41 @@ namespace {
 
 constexpr std::size_t at(Index i) { return static_cast<std::size_t>(i); }
 
+struct Fastest {
+  Index node = 0;
+  double speed = -1;  // m/s; not finite if any is not
+};
+
+Fastest fastest_node(const Model& model, const State& state) {
+  Fastest found;
+  for (Index i = 0; i < model.nodes && std::isfinite(found.speed); ++i) {
+    const double speed = std::hypot(state.vx[at(i)], state.vy[at(i)], state.vz[at(i)]);
+    if (!(speed <= found.speed)) found = {i, speed};
+  }
+  return found;
+}
+
 }  // namespace
+
+void check_energy(const Preparation& preparation, const Model& model, const State& state, double residual,
+                  double scale, double limit) {
+  constexpr double least = 1e-12;  // J: rounding in a scene without energy
+  if (!(std::abs(residual) > limit * scale + least)) return;
+  const Fastest fastest = fastest_node(model, state);
+  const auto i = at(fastest.node);
+  char text[700];
+  std::snprintf(
+      text, sizeof text,
+      "error: at t = %.9g s %.3g J have %s, %.3g times what the scene began with and what was put in "
+      "(time.residual_limit = %.3g); fastest: %s at (%.6g, %.6g, %.6g) m with %.3g m/s; likely "
+      "cause: the time step %.3g s is too large for threads that turn slack and taut or for impacts "
+      "(stable step %.3g s); take half of it, or more damping",
+      static_cast<double>(state.step) * preparation.dt, std::abs(residual),
+      residual < 0 ? "come from nowhere" : "been lost", scale > 0 ? std::abs(residual) / scale : HUGE_VAL,
+      limit, node_label(preparation.assembly, fastest.node).c_str(), state.x[i], state.y[i], state.z[i],
+      fastest.speed, preparation.dt, preparation.stable_step);
+  throw NumericalError(text);
+}
 
 void check_contacts(const Preparation& preparation, const State& state) {
   const auto check = [&](const char* kind, const std::string& name, const auto& tally) {
@@ -48,15 +82,7 @@ bool speeds_allowed(const State& state, double speed_limit) {
 void report_runaway(const Preparation& preparation, const Model& model, const State& state,
                     double speed_limit) {
   const double time = static_cast<double>(state.step) * preparation.dt;
-  Index worst = 0;
-  double fastest = -1;
-  for (Index i = 0; i < model.nodes && std::isfinite(fastest); ++i) {
-    const double speed = std::hypot(state.vx[at(i)], state.vy[at(i)], state.vz[at(i)]);
-    if (!(speed <= fastest)) {
-      worst = i;
-      fastest = speed;
-    }
-  }
+  const auto [worst, fastest] = fastest_node(model, state);
   char text[600];
   std::snprintf(text, sizeof text,
                 "error: at t = %.9g s %s at (%.6g, %.6g, %.6g) m moves at %.3g m/s (time.speed_limit_m_s = "

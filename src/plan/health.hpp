@@ -9,6 +9,11 @@ namespace cinch {
 /// grow without bound.
 void check_contacts(const Preparation& preparation, const State& state);
 
+/// Throws NumericalError when more energy has come from nowhere, or gone there, than `limit` times `scale`
+/// (J).
+void check_energy(const Preparation& preparation, const Model& model, const State& state, double residual,
+                  double scale, double limit);
+
 /// True if the speed of every node is finite and within `speed_limit` (m/s).
 bool speeds_allowed(const State& state, double speed_limit);
 

@@ -92,12 +92,12 @@ class Piece {
 
   AlignedVector<double> own_fields_[6];  ///< of a piece that is not whole
   double* fields_[6] = {};
-  AlignedVector<double> scale_, share_;       ///< node
-  AlignedVector<double> palette_;             ///< row x (k, c, l0) x lanes: see AxialArguments
-  std::vector<Index> parameter_;              ///< group, in the order of the runs: its row
-  AlignedVector<double> force_[3];            ///< level x force
-  AlignedVector<double> damper_;              ///< group x lanes: the damper's force in the last step, N
-  AlignedVector<double> link_damper_;         ///< link: the same
+  AlignedVector<double> scale_, share_;  ///< node
+  AlignedVector<double> palette_;        ///< row x (k, c, l0) x lanes: see AxialArguments
+  std::vector<Index> parameter_;         ///< group, in the order of the runs: its row
+  AlignedVector<double> force_[3];       ///< level x force
+  AlignedVector<double> damper_;         ///< group x lanes: the damper's force in the last step, N
+  AlignedVector<double> link_damper_;    ///< link: the same
   bool knows_dampers_ = false;
   std::size_t ledger_size_ = 0;
   std::vector<kernel::Held> held_;            ///< constraint

@@ -227,6 +227,12 @@ Frame Simulation::frame(const Look& now) {
   return out;
 }
 
+void Simulation::check_energy(const Look& now) {
+  if (!scene_.output.ledger || scene_.time.allow_unstable) return;
+  const double residual = ledger_.energies(now.energy()).residual;
+  cinch::check_energy(preparation_, model(), state_, residual, ledger_.scale(), scene_.time.residual_limit);
+}
+
 std::vector<double> Simulation::probe_row(const Look& now) {
   return probe_values(scene_, now, ledger_.energies(now.energy()), node_start_, ring_start_);
 }

@@ -78,7 +78,8 @@ void SlidingJoints::tell(State& state) const {
     for (Index j = thread.joint_begin; thread.booked && j < thread.joint_end; ++j) {
       kernel::JointState& to = state.joints[at(number_[at(j)])];
       const kernel::JointState& from = states_[at(j)];
-      to.length = from.length, to.tension = from.tension, to.energy = from.energy, to.along = from.along, to.due = from.due;
+      to.length = from.length, to.tension = from.tension, to.energy = from.energy, to.along = from.along,
+      to.due = from.due;
     }
 }
 

@@ -181,12 +181,13 @@ struct Closing {
 };
 
 struct TimeSpec {
-  double end = 0;               ///< s
-  double step = 0;              ///< s; 0: automatic
-  double safety = 0.5;          ///< automatic step over the stable bound
-  bool allow_unstable = false;  ///< accept a step above the bound
-  double speed_limit = 1e5;     ///< m/s, a faster node stops the run
-  SourceRef source;             ///< of time.step_s where given, else of [time]
+  double end = 0;                ///< s
+  double step = 0;               ///< s; 0: automatic
+  double safety = 0.5;           ///< automatic step over the stable bound
+  bool allow_unstable = false;   ///< accept a step above the bound
+  double speed_limit = 1e5;      ///< m/s, a faster node stops the run
+  double residual_limit = 0.05;  ///< of the energy ledger, relative; a greater one stops the run
+  SourceRef source;              ///< of time.step_s where given, else of [time]
 };
 
 struct OutputSpec {
