@@ -25,7 +25,7 @@ struct AlignedAllocator {
     const std::size_t bytes = (n + spare) * sizeof(T);
     T* const data = static_cast<T*>(::operator new(bytes, alignment));
     wish_huge_pages(data, bytes);
-    std::fill(data + n, data + n + spare, T{});
+    std::fill(data, data + n + spare, T{});  // all of it: a vector may have room behind its end
     return data;
   }
   void deallocate(T* p, std::size_t) { ::operator delete(p, alignment); }

@@ -1,10 +1,7 @@
 // Element forces, group by group and link by link; the law stands in axial_law.hpp.
 #include <cstddef>
 
-#include "kernels/axial_law.hpp"
-#ifdef __AVX512F__
-#include "kernels/axial_lanes.hpp"
-#endif
+#include "kernels/axial_group.hpp"
 #include "kernels/kernel_table.hpp"
 
 namespace cinch::CINCH_ISA {
@@ -16,110 +13,6 @@ using kernel::lanes;
 using kernel::Link;
 using kernel::Patch;
 using kernel::Span;
-
-constexpr bool with_energy(Book::Sum book) { return book == Book::energy || book == Book::energy_and_power; }
-constexpr bool with_power(Book::Sum book) { return book == Book::power || book == Book::energy_and_power; }
-
-// The lower ends of a span's elements and where their forces go. As few addresses as possible: they shall
-// stay in registers.
-struct SpanView {
-  const double* __restrict x, * __restrict y, * __restrict z, * __restrict u, * __restrict v, * __restrict w;
-  double* __restrict fx, * __restrict fy, * __restrict fz;
-  const Index* __restrict parameter;
-  const double* __restrict palette;
-  double* __restrict damper;
-  std::ptrdiff_t step;
-  double dt;
-};
-
-inline SpanView view(const AxialArguments& g, const Span& s, bool power) {
-  return {g.x + s.node,   g.y + s.node,
-          g.z + s.node,   g.vx + s.node,
-          g.vy + s.node,  g.vz + s.node,
-          g.fx + s.force, g.fy + s.force,
-          g.fz + s.force, g.parameter + s.parameter,
-          g.palette,      power ? g.damper + s.parameter * lanes : nullptr,
-          s.step,         g.dt};
-}
-
-// What is summed up goes lane by lane, so that the bits are the same for every vector width.
-#ifdef __AVX512F__
-struct Sums {
-  Group energy, power;
-};
-CINCH_INLINE void read(const double* from, Group& to) { to = load(from); }
-CINCH_INLINE void write(double* to, Group from) { store(to, from); }
-
-CINCH_INLINE Nodes nodes(const SpanView& s, std::ptrdiff_t i) {
-  return {load(s.x + i), load(s.y + i), load(s.z + i), load(s.u + i), load(s.v + i), load(s.w + i)};
-}
-
-// One group. In a chain each upper end is the next lower one.
-template <bool damped, Book::Sum book, bool chain>
-CINCH_INLINE void group(const SpanView& s, std::ptrdiff_t number, Sums& sums) {
-  const std::ptrdiff_t i = number * lanes;
-  const double* const row = s.palette + 3 * lanes * static_cast<std::ptrdiff_t>(s.parameter[number]);
-  const Taut item = taut(relative(nodes(s, i), nodes(s, i + (chain ? 1 : s.step))), row);
-  const Forces f = force<damped, with_power(book), book == Book::power>(
-      item, row, _mm512_set1_pd(s.dt), with_power(book) ? s.damper + i : nullptr, sums.power);
-  store(s.fx + i, f.x), store(s.fy + i, f.y), store(s.fz + i, f.z);
-  if (with_energy(book)) sums.energy += _mm512_set1_pd(0.5) * load(row) * item.stretch * item.stretch;
-}
-#else
-struct Sums {
-  alignas(64) double energy[lanes], power[lanes];
-};
-inline void read(const double* from, double (&to)[lanes]) {
-  for (Index lane = 0; lane < lanes; ++lane) to[lane] = from[lane];
-}
-inline void write(double* to, const double (&from)[lanes]) {
-  for (Index lane = 0; lane < lanes; ++lane) to[lane] = from[lane];
-}
-
-// The forces of one group, and what belongs into its sums. In a chain each upper end is the next lower one.
-// Returns whether elements of it turn taut or slack.
-template <bool damped, bool chain, bool switching>
-inline bool forces_of_group(const SpanView& s, std::ptrdiff_t number, Sums& energy_and_rate,
-                            double* __restrict damper) {
-  const double* __restrict const row =
-      s.palette + 3 * lanes * static_cast<std::ptrdiff_t>(s.parameter[number]);
-  const std::ptrdiff_t first = number * lanes, step = chain ? 1 : s.step;
-  double spare = 0;
-#pragma omp simd reduction(min : spare)
-  for (std::ptrdiff_t lane = 0; lane < lanes; ++lane) {
-    const std::ptrdiff_t i = first + lane, j = i + step;
-    const double rx = s.x[j] - s.x[i], ry = s.y[j] - s.y[i], rz = s.z[j] - s.z[i];
-    const double rr = rx * rx + ry * ry + rz * rz;
-    const double rv = rx * (s.u[j] - s.u[i]) + ry * (s.v[j] - s.v[i]) + rz * (s.w[j] - s.w[i]);
-    const Axial item = axial_law<switching>(rr, rv, row[lane], damped ? row[lanes + lane] : 0.0,
-                                            row[2 * lanes + lane], s.dt);
-    s.fx[i] = item.per_length * rx;
-    s.fy[i] = item.per_length * ry;
-    s.fz[i] = item.per_length * rz;
-    energy_and_rate.energy[lane] = item.energy;
-    energy_and_rate.power[lane] = item.rate;
-    damper[lane] = item.damper;
-    spare = item.spare < spare ? item.spare : spare;
-  }
-  return spare < 0;
-}
-
-// Elements that turn taut or slack are few and cost a division: a group that has some is computed anew.
-template <bool damped, Book::Sum book, bool chain>
-inline void group(const SpanView& s, std::ptrdiff_t number, Sums& sums) {
-  Sums item;
-  alignas(64) double damper[lanes];
-  if (forces_of_group<damped, chain, false>(s, number, item, damper)) [[unlikely]]
-    forces_of_group<damped, chain, true>(s, number, item, damper);
-  double* __restrict const before = with_power(book) ? s.damper + number * lanes : nullptr;
-#pragma omp simd
-  for (std::ptrdiff_t lane = 0; lane < lanes; ++lane) {
-    if (with_energy(book)) sums.energy[lane] += item.energy[lane];
-    if (with_power(book)) sums.power[lane] += 0.5 * (damper[lane] + before[lane]) * item.power[lane];
-    if (book == Book::power) before[lane] = damper[lane];
-  }
-}
-#endif
 
 template <bool damped, bool chain>
 inline void groups(const SpanView& s, const Span& span) {
