@@ -276,6 +276,20 @@ TEST(SlidingJoint, WayOfSeveralRingsIsThatOfTheConvexProblem) {
   }
 }
 
+// Waypoint after waypoint comes slowly to the way of rings that lie at one place; the ledger begins with it.
+TEST(SlidingJoint, TheFirstLookFindsTheWayOfRingsAtOnePlace) {
+  Bench bench;
+  for (const double y : {0.0, 0.06}) bench.nodes.push_back(bench.add(Vec3(0, y, 0), Vec3::Zero()));
+  for (const Vec3& normal : {Vec3(0.2, 1, 0.1), Vec3(0, 1, 0.2), Vec3(0.2, 1, 0.3), Vec3(0, 1, 0.4)}) {
+    const Index node = bench.add(Vec3(0, 0.03, 0), Vec3::Zero());
+    bench.add_ring(node, node, 0, normal.normalized());
+  }
+  bench.evaluate();
+  const double first = bench.states[0].length;
+  for (int round = 0; round < 30; ++round) bench.evaluate();
+  EXPECT_NEAR(first, bench.states[0].length, 1e-7);
+}
+
 TEST(SlidingJoint, TheForceOfARingIsThatOfAllItsThreads) {
   Dice dice(9);
   for (int i = 0; i < 20; ++i) {
@@ -650,6 +664,27 @@ void expect_conserved(Simulation& sim) {
 }
 
 // What the supports of a ring that cannot turn take is booked.
+// A thread that comes to a ring's plane and goes back does not pass; which way the normal points is all one.
+TEST(SlidingJoint, AThreadPassesFromOneSideToTheOther) {
+  const auto scene = [](const std::string& points, int elements, const char* normal) {
+    return scene_of(
+        "schema = 1\n[time]\nend_s = 1\n[material.m]\nyoungs_modulus_Pa = 1e8\ndensity_kg_m3 = 970\n"
+        "[thread.main]\nmaterial = \"m\"\ndiameter_m = 0.002\nelements = " +
+        std::to_string(elements) + "\npoints_m = " + points +
+        "\n[ring.r]\ndiameter_m = 0.02\nwire_diameter_m = 0.004\nmass_kg = 0.03\n"
+        "youngs_modulus_Pa = 1e9\ncenter_m = [0, 0, 0]\njoint = \"sliding\"\nnormal = " +
+        normal + "\n");
+  };
+  for (const char* normal : {"[0, 1, 0]", "[0, -1, 0]"}) {
+    SCOPED_TRACE(normal);
+    const Simulation through(scene("[[0, -0.5, 0], [0, 0.5, 0]]", 2, normal), 1);  // a node in the plane
+    EXPECT_EQ(through.state().joints.size(), 1u);
+    EXPECT_EQ(through.state().joints[0].element, 1);
+    EXPECT_THROW(Simulation(scene("[[0, -0.5, 0], [0, 0, 0]]", 2, normal), 1), CaseError);
+    EXPECT_THROW(Simulation(scene("[[0, -0.5, -0.1], [0, 0, 0], [0, -0.5, 0.1]]", 2, normal), 1), CaseError);
+  }
+}
+
 TEST(SlidingJoint, MomentumAndEnergyAreBookedForRingsOfEverySupport) {
   for (const char* support : {"", "support = \"guided\"\naxis = [1, 0, 1]\n", "support = \"fixed\"\n"}) {
     SCOPED_TRACE(support);

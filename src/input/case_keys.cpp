@@ -60,7 +60,7 @@ const Section<TimeSpec>& time_section() {
             .fallback = "0.5",
             .meaning = "Automatic step over the stable step; at most 0.2 where a material has "
                        "`damping_ratio` < 0.01.",
-            .source = "tension-only threads without damping gain energy well below the linear bound"},
+            .source = "undamped threads that turn slack and taut gain energy well below the linear bound"},
            into(&TimeSpec::safety)},
           {{.name = "allow_unstable",
             .type = flag,

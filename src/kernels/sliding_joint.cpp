@@ -143,7 +143,7 @@ inline double round_of_waypoints(const Slide& s, const Group& group, V3 a, V3 b)
 // Waypoint after waypoint: each round shortens a function that is convex in all of them. A waypoint wrong by
 // e makes the length wrong by e^2 over that of a leg.
 inline void find_waypoints(const Slide& s, const Group& group, V3 a, V3 b) {
-  constexpr int most_rounds = 40;
+  constexpr int most_rounds = 1000;  // a dozen do, but where rings lie at one place at first
   const double close = 1e-4 * s.work[group.first].host.opening.radius;
   for (int i = 0; i < most_rounds; ++i)
     if (round_of_waypoints(s, group, a, b) <= close * close) break;

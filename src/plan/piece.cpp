@@ -179,7 +179,8 @@ void Piece::take(State& state) {
 }
 
 // Steps book what dampers take between the step before and this one. There is none before the first: with
-// dampers that pulled the other way then, it books nothing.
+// dampers that pulled the other way then, it books next to nothing (a scene's first velocities are those of
+// t = 0 here, and half a step earlier there).
 void Piece::find_dampers() {
   AlignedVector<double> nowhere(ledger_size_, 0.0);
   double* const booked = std::exchange(axial_.booked, nowhere.data());

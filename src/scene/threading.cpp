@@ -1,6 +1,8 @@
 #include "scene/threading.hpp"
 
+#include <cmath>
 #include <cstdio>
+#include <optional>
 
 #include "scene/fault.hpp"
 
@@ -30,7 +32,7 @@ void check_opening(const Assembly& assembly, const AssemblyRing& ring, const Par
 }
 
 // Where a thread crosses the ring's plane no farther from its centre than `reach`, in elements from its
-// start.
+// start: from one side to the other. A thread that only comes to the plane does not pass.
 std::vector<double> crossings(const Assembly& assembly, const AssemblyRing& ring, const Part& thread,
                               double reach) {
   const auto place = [&](Index node) { return assembly.nodes[at(node)].position; };
@@ -38,12 +40,19 @@ std::vector<double> crossings(const Assembly& assembly, const AssemblyRing& ring
   const Vec3 normal =
       ring.element < 0 ? ring.normal : Vec3((place(ring.host_b) - place(ring.host_a)).normalized());
   std::vector<double> found;
-  for (std::size_t k = 0; k + 1 < thread.nodes.size(); ++k) {
-    const Vec3 a = place(thread.nodes[k]) - center, b = place(thread.nodes[k + 1]) - center;
-    const double axial_a = normal.dot(a), axial_b = normal.dot(b);
+  std::optional<std::size_t> last;  // node that is not in the plane
+  for (std::size_t k = 0; k < thread.nodes.size(); ++k) {
+    const Vec3 b = place(thread.nodes[k]) - center;
+    const double axial_b = normal.dot(b);
+    if (std::abs(axial_b) <= 1e-9 * reach) continue;
+    const std::size_t before = last.value_or(k);
+    last = k;
+    const double axial_a = normal.dot(place(thread.nodes[before]) - center);
     if ((axial_a < 0) == (axial_b < 0)) continue;
-    const double t = axial_a / (axial_a - axial_b);
-    if (((1 - t) * a + t * b).norm() <= reach) found.push_back(static_cast<double>(k) + t);
+    // to the next node, which may lie in the plane
+    const Vec3 a = place(thread.nodes[before]) - center, next = place(thread.nodes[before + 1]) - center;
+    const double t = axial_a / (axial_a - normal.dot(next));
+    if (((1 - t) * a + t * next).norm() <= reach) found.push_back(static_cast<double>(before) + t);
   }
   return found;
 }
@@ -77,7 +86,9 @@ void thread_ring(const Ring& spec, const std::map<Index, LaidAlong>& carriers, c
     if (!places.empty()) ring.threadings.push_back({number, places.front()});
   }
   if (ring.threadings.empty())
-    fail(spec.source, "ring '" + ring.name + "': no thread passes through it, as joint = \"sliding\" needs");
+    fail(spec.source,
+         "ring '" + ring.name +
+             "': no thread passes through it, as a sliding joint needs (joint or case.method = \"sliding\")");
   ring.parts.clear();
 }
 
