@@ -270,6 +270,17 @@ youngs_modulus_Pa = 7e10
   EXPECT_GE(usage, 0.4);  // where four threads cross, only two pull along one line
 }
 
+TEST(StableStep, LittleDampingKeepsTheAutomaticStepFarFromIt) {
+  for (const auto& [damping, most] : {std::pair{0.0, 0.2}, {0.02, 0.5}, {0.106, 0.8}}) {
+    Scene scene = chain(20, 0, 0.01);
+    for (auto& [name, material] : scene.materials) material.damping_ratio = damping;
+    scene.time.step = 0, scene.time.safety = 0.8, scene.output.frame_interval = 1;
+    const Preparation p = prepare(scene);
+    EXPECT_LE(p.dt, most * p.stable_step);
+    EXPECT_GT(p.dt, 0.99 * most * p.stable_step);
+  }
+}
+
 TEST(StableStep, AGivenStepAboveItIsRefusedWithOneThatWorks) {
   const std::string text = R"(schema = 1
 [time]

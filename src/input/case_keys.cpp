@@ -59,8 +59,9 @@ const Section<TimeSpec>& time_section() {
             .range = above(0, 1),
             .fallback = "0.5",
             .meaning = "Automatic step over the stable step; at most 0.2 where a material has "
-                       "`damping_ratio` < 0.01.",
-            .source = "undamped threads that turn slack and taut gain energy well below the linear bound"},
+                       "`damping_ratio` < 0.01, at most 0.5 below 0.05.",
+            .source = "threads that turn slack and taut gain energy well below the linear bound if little "
+                      "damps them"},
            into(&TimeSpec::safety)},
           {{.name = "allow_unstable",
             .type = flag,
