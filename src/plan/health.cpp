@@ -29,7 +29,7 @@ Fastest fastest_node(const Model& model, const State& state) {
 void check_energy(const Preparation& preparation, const Model& model, const State& state, double residual,
                   double scale, double limit) {
   constexpr double least = 1e-12;  // J: rounding in a scene without energy
-  if (!(std::abs(residual) > limit * scale + least)) return;
+  if (std::abs(residual) <= limit * scale + least) return;  // not so for what is no number
   const Fastest fastest = fastest_node(model, state);
   const auto i = at(fastest.node);
   char text[700];
