@@ -217,7 +217,6 @@ const std::string two_rings = minimal + "[ring.a]\ncenter_m = [0.3, 0, 0]\nnorma
 
 TEST(CaseReader, AMethodIsASetOfDefaults) {
   const Scene contact = parse_case(two_rings, "t.toml");
-  EXPECT_EQ(contact.method, Method::contact);
   EXPECT_EQ(contact.rings[0].joint, RingJoint::contact);
 
   const Scene paper = parse_case(two_rings, "t.toml", {{"case.method", "\"paper\""}});

@@ -216,17 +216,10 @@ struct Probe {
   SourceRef source;
 };
 
-enum class Method {
-  contact,  ///< threads touch the wires of rings
-  sliding,  ///< rings slide on threads, see RingJoint
-  paper     ///< contact by the paper's rules at its step
-};
-
 struct Scene {
-  std::string name;                 ///< case name (the file's stem)
-  std::string title, about;         ///< one line; what to expect
-  std::string resolved_toml;        ///< the case with every default written out
-  Method method = Method::contact;  ///< whose defaults were taken
+  std::string name;           ///< case name (the file's stem)
+  std::string title, about;   ///< one line; what to expect
+  std::string resolved_toml;  ///< the case with every default written out
   std::map<std::string, Material> materials;
   std::vector<Net> nets;  ///< in file order; order is the numbering
   std::vector<Mechanism> mechanisms;
