@@ -194,7 +194,7 @@ struct SlidingThread {
   Index node_begin, elements;              ///< its nodes are nodes[node_begin + 0 .. elements]
   Index joint_begin, joint_end;            ///< its joints, in their order along it
   double stiffness, damping, rest_length;  ///< of each element: N/m, N s/m, m
-  bool booked;                             ///< here, or elsewhere
+  bool booked;                             ///< what its joints have felt counts here, not elsewhere
 };
 
 /// Where a joint stands and what it has felt.

@@ -5,7 +5,7 @@
 // window of instructions is shorter than both together. So a turn of the loop finishes one group, divides for
 // the next and takes the root for the one behind: none waits for another. bench/README.md has what that gave.
 //
-// axial_force.cpp and node_update.cpp are the reference; the operations on each number and their order are
+// axial_law.hpp and node_update.cpp are the reference; the operations on each number and their order are
 // theirs, and so are the bits.
 #include <cstddef>
 

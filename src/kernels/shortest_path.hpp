@@ -86,8 +86,7 @@ inline RimPoint at_rim(const Opening& o, const Seen& q, const Seen& r, V3 e) {
   return {t, w, dot(t, w), dot(e, w) - o.radius * (tq * tq * iq + tr * tr * ir), o.radius * (iq + ir)};
 }
 
-constexpr double close_turn =
-    1e-3;  // for distances between rim point and neighbours of one; Newton squares it
+constexpr double close_turn = 1e-3;  // Newton squares it
 
 /// Turns the unit in-plane vector e to where the way over the rim point c e has no slope. Newton's method
 /// where the way is convex in the angle, else the angle that Weiszfeld's rule gives (no step of it makes the

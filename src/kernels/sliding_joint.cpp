@@ -339,7 +339,8 @@ struct Beyond {
   }
 };
 
-// The first joint of a group, if its element had the same rings in the last step.
+// The first joint of a group, if its element had the same rings in the last step. Else, as where a node has
+// passed, power is booked as if the dampers had pulled as now.
 inline const JointState* last_step(const Slide& s, const Group& group) {
   const JointState& first = s.state(group.first);
   return first.damped == group.element && first.rings == group.last - group.first ? &first : nullptr;
