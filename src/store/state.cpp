@@ -2,6 +2,7 @@
 
 #include <bit>
 
+#include "base/fnv.hpp"
 #include "store/fields.hpp"
 
 namespace cinch {
@@ -39,23 +40,12 @@ State initial_state(const Model& model, const Assembly& assembly) {
   return state;
 }
 
-namespace {
-
-void mix(std::uint64_t& hash, std::uint64_t word) {
-  for (int byte = 0; byte < 8; ++byte) {
-    hash ^= (word >> (8 * byte)) & 0xff;
-    hash *= 0x100000001b3ULL;
-  }
-}
-
-}  // namespace
-
 std::uint64_t state_hash(const State& state) {
-  std::uint64_t hash = 0xcbf29ce484222325ULL;
-  mix(hash, static_cast<std::uint64_t>(state.step));
+  Fnv hash;
+  hash.add(static_cast<std::uint64_t>(state.step));
   for (const NodeField& field : node_fields)
-    for (const double value : state.*field.values) mix(hash, std::bit_cast<std::uint64_t>(value));
-  return hash;
+    for (const double value : state.*field.values) hash.add(std::bit_cast<std::uint64_t>(value));
+  return hash.hash();
 }
 
 }  // namespace cinch
