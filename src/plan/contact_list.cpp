@@ -37,6 +37,17 @@ kernel::Pair pair_of(const Model& model, const ContactSet& set, Index position, 
           set.weight_b[at(position)]};
 }
 
+kernel::Pair pair_with_ring(const Model& model, Index position, std::size_t r) {
+  return pair_of(model, model.contact_sets[at(model.ring_set[r])], position, static_cast<Index>(r),
+                 model.ring_wire_radius[r], model.ring_wire_radius[r], model.ring_compliance[r]);
+}
+
+kernel::Pair pair_with_ball(const Model& model, Index position, std::size_t b) {
+  const Model::Ball& ball = model.balls[b];
+  return pair_of(model, model.contact_sets[at(ball.set)], position, static_cast<Index>(b), ball.radius,
+                 ball.radius, ball.compliance);
+}
+
 // A sphere is an element without length: both ends are its node.
 kernel::Pair pair_of(const Model::Sphere& sphere, Index with, const Model::Ball& ball) {
   return {sphere.node,
@@ -52,6 +63,23 @@ kernel::Pair pair_of(const Model::Sphere& sphere, Index with, const Model::Ball&
 Vec3 ring_center(const State& state, const kernel::RingGeometry& ring) {
   const auto a = at(ring.a), b = at(ring.b);
   return 0.5 * Vec3(state.x[a] + state.x[b], state.y[a] + state.y[b], state.z[a] + state.z[b]);
+}
+
+// Position of an element in the set.
+Index position_in(const Archive& archive, const ContactSet& set, Index element) {
+  const auto found = std::lower_bound(set.elements.begin(), set.elements.end(), element);
+  if (found == set.elements.end() || *found != element)
+    archive.refuse("contacts/element", "names an element that has no such contact");
+  return static_cast<Index>(found - set.elements.begin());
+}
+
+kernel::Pair restored_with_ball(const Archive& archive, const Model& model, Index touching, std::size_t b) {
+  const Model::Ball& ball = model.balls[b];
+  if (touching >= 0)
+    return pair_with_ball(model, position_in(archive, model.contact_sets[at(ball.set)], touching), b);
+  for (const Model::Sphere& sphere : ball.spheres)
+    if (sphere.node == kernel::sphere_label(touching)) return pair_of(sphere, static_cast<Index>(b), ball);
+  archive.refuse("contacts/element", "names a mass that has no such contact");
 }
 
 kernel::BallTally untouched() {
@@ -98,6 +126,35 @@ void ContactList::rebuild(const Model& model, State& state) {
     begin_tallies(state.balls[b], at(ball_begin[b + 1] - ball_begin[b]));
 }
 
+void ContactList::transfer(Archive& archive, const Model& model) {
+  std::vector<Index> touching;  // of each pair, as pairs name it
+  for (const kernel::Pair& pair : pairs) touching.push_back(pair.element);
+  archive.wholes("contacts/element", touching, kernel::sphere_label(model.nodes - 1), model.elements - 1);
+  const auto most = static_cast<std::int64_t>(touching.size());
+  archive.wholes("contacts/ring_begin", ring_begin, 0, most);
+  archive.wholes("contacts/target_begin", ball_begin, 0, most);
+  if (!archive.restoring()) return;
+  require_ranges(archive, model, most);
+  pairs.clear();
+  for (std::size_t r = 0; r < model.rings.size(); ++r)
+    for (Index i = ring_begin[r]; i < ring_begin[r + 1]; ++i)
+      pairs.push_back(pair_with_ring(
+          model, position_in(archive, model.contact_sets[at(model.ring_set[r])], touching[at(i)]), r));
+  for (std::size_t b = 0; b < model.balls.size(); ++b)
+    for (Index i = ball_begin[b]; i < ball_begin[b + 1]; ++i)
+      pairs.push_back(restored_with_ball(archive, model, touching[at(i)], b));
+}
+
+// Rings' pairs first, then those of the balls, without gaps.
+void ContactList::require_ranges(const Archive& archive, const Model& model, std::int64_t pair_count) const {
+  const bool whole = ring_begin.size() == model.rings.size() + 1 &&
+                     ball_begin.size() == model.balls.size() + 1 && ring_begin.front() == 0 &&
+                     ring_begin.back() == ball_begin.front() && ball_begin.back() == pair_count &&
+                     std::is_sorted(ring_begin.begin(), ring_begin.end()) &&
+                     std::is_sorted(ball_begin.begin(), ball_begin.end());
+  if (!whole) archive.refuse("contacts", "does not fit the rings and targets of the case");
+}
+
 void ContactList::find_ring_pairs(const Model& model, const State& state) {
   ring_begin.assign(1, 0);
   for (std::size_t r = 0; r < model.rings.size(); ++r) {
@@ -107,9 +164,7 @@ void ContactList::find_ring_pairs(const Model& model, const State& state) {
     found_.clear();
     trees_[set_number].query(model, set, state, ring_center(state, ring), ring.reach + margin_, found_,
                              pairs_tested_);
-    for (const Index position : found_)
-      pairs.push_back(pair_of(model, set, position, static_cast<Index>(r), model.ring_wire_radius[r],
-                              model.ring_wire_radius[r], model.ring_compliance[r]));
+    for (const Index position : found_) pairs.push_back(pair_with_ring(model, position, r));
     ring_begin.push_back(static_cast<Index>(pairs.size()));
   }
 }
@@ -123,8 +178,7 @@ void ContactList::find_ball_pairs(const Model& model, const State& state) {
     found_.clear();
     trees_[at(ball.set)].query(model, set, state, ball.center, ball.radius + set.thickest + margin_, found_,
                                pairs_tested_);
-    for (const Index position : found_)
-      pairs.push_back(pair_of(model, set, position, with, ball.radius, ball.radius, ball.compliance));
+    for (const Index position : found_) pairs.push_back(pair_with_ball(model, position, b));
     for (const Model::Sphere& sphere : ball.spheres)
       if (distance_to_element(state, sphere.node, sphere.node, ball.center) <=
           ball.radius + sphere.radius + margin_)

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "base/archive.hpp"
 #include "plan/broadphase.hpp"
 
 namespace cinch {
@@ -17,6 +18,9 @@ class ContactList {
   /// begin.
   void rebuild(const Model& model, State& state);
 
+  /// Saves or restores the pairs, as they were found in a state that is gone.
+  void transfer(Archive& archive, const Model& model);
+
   double margin() const { return margin_; }
   std::int64_t rebuilds() const { return rebuilds_; }
   std::int64_t pairs_tested() const { return pairs_tested_; }
@@ -27,6 +31,7 @@ class ContactList {
   std::vector<Index> ball_begin;    ///< ball + 1
 
  private:
+  void require_ranges(const Archive& archive, const Model& model, std::int64_t pair_count) const;
   void find_ring_pairs(const Model& model, const State& state);
   void find_ball_pairs(const Model& model, const State& state);
 

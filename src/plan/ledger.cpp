@@ -93,4 +93,20 @@ Momentum Ledger::drift(const Model& model, const State& state, double time) cons
   return drift;
 }
 
+void Ledger::transfer(Archive& archive) {
+  archive.value("ledger/initial", initial_);
+  archive.value("ledger/gravity_zero", gravity_zero_);
+  archive.value("ledger/gravity_change", gravity_change_);
+  archive.value("ledger/work", work_);
+  archive.value("ledger/booked_activation", booked_activation_);
+  archive.value("ledger/carried_damper", carried_damper_);
+  const auto momentum = [&](const std::string& name, Momentum& of) {
+    archive.values(name + "/linear", std::span(of.linear.data(), 3));
+    archive.values(name + "/angular", std::span(of.angular.data(), 3));
+  };
+  momentum("ledger/start", start_);
+  momentum("ledger/carried_outside", carried_outside_);
+  momentum("ledger/booked", booked_);
+}
+
 }  // namespace cinch

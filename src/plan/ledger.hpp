@@ -4,6 +4,7 @@
 // Gravity counts from its value at the start. The residual is taken relative to the largest of: the initial
 // energy, the work put in by separations, and the greatest change of gravitational energy (gravity's work).
 #pragma once
+#include "base/archive.hpp"
 #include "plan/look.hpp"
 
 namespace cinch {
@@ -37,6 +38,8 @@ class Ledger {
   double scale() const;
   /// Change of momentum that nothing accounts for.
   Momentum drift(const Model& model, const State& state, double time) const;
+  /// Saves or restores the books.
+  void transfer(Archive& archive);
 
  private:
   double initial_ = 0, gravity_zero_ = 0, gravity_change_ = 0;

@@ -191,6 +191,36 @@ void Piece::find_dampers() {
   knows_dampers_ = true;
 }
 
+// Calls visit(user's element, its lower node here, group x lanes) for those of runs.
+template <class Visit>
+void Piece::for_each_element(Visit&& visit) const {
+  std::size_t place = 0;
+  for (const Run& run : topology_.runs)
+    for (Index node = first_group_node(run), end = node + group_count(run) * kernel::lanes; node < end;
+         ++node, ++place) {
+      const Index k = node - run.a;
+      const Index e = k >= 0 && k < run.count ? topology_.slot_element[at(run.slot + k)] : -1;
+      if (e >= 0) visit(at(e), node, place);
+    }
+}
+
+bool Piece::tell_dampers(AlignedVector<double>& forces) const {
+  if (!knows_dampers_) return false;
+  for_each_element([&](std::size_t e, Index node, std::size_t place) {
+    if (numbering_.own(node)) forces[e] = damper_[place];
+  });
+  for (std::size_t i = 0; i < link_damper_.size(); ++i)
+    if (reduction_.links[i].row >= 0) forces[at(topology_.links[i].element)] = link_damper_[i];
+  return true;
+}
+
+void Piece::set_dampers(const AlignedVector<double>& forces) {
+  for_each_element([&](std::size_t e, Index, std::size_t place) { damper_[place] = forces[e]; });
+  for (std::size_t i = 0; i < link_damper_.size(); ++i)
+    link_damper_[i] = forces[at(topology_.links[i].element)];
+  knows_dampers_ = true;
+}
+
 void Piece::give(State& state) const {
   joints_.give(state);
   if (whole_) return;

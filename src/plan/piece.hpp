@@ -56,9 +56,18 @@ class Piece {
   void glance(State& state, double time, double motion, Glance& out);
   /// Appends the forces of contacts and joints on its own nodes as last evaluated, in the user's numbers.
   void append_loads(std::vector<kernel::Load>& loads) const;
+  /// The dampers' forces of the last step by element, N: those booked here are put into `forces`. False where
+  /// none are kept or there was no step.
+  bool tell_dampers(AlignedVector<double>& forces) const;
+  /// The dampers' forces of the last step by element, of all elements of the scene.
+  void set_dampers(const AlignedVector<double>& forces);
+  /// The next step books as a first one: see find_dampers.
+  void forget_dampers() { knows_dampers_ = false; }
   std::size_t memory() const;  ///< bytes, see memory.hpp
 
  private:
+  template <class Visit>
+  void for_each_element(Visit&& visit) const;
   void set_up(const Model& model, const std::vector<double>& node_share);
   void set_constraints(const Model& model);
   void set_parameters(const Model& model);

@@ -78,13 +78,23 @@ Simulation::Simulation(const Scene& scene, int threads) : Simulation(scene, prep
 
 Simulation::Simulation(const Scene& scene, Preparation preparation, int threads)
     : scene_(scene), preparation_(std::move(preparation)) {
+  make_ready(threads);
+  find_start();
+  start();
+}
+
+Simulation::Simulation(const Scene& scene, Preparation preparation, int threads, Archive& saved)
+    : scene_(scene), preparation_(std::move(preparation)) {
+  make_ready(threads);
+  restore(saved);
+}
+
+void Simulation::make_ready(int threads) {
   omp_set_dynamic(0);
   threads_ = available_threads(
       threads > 0 ? threads : choose_threads(preparation_.whole().elements, omp_get_max_threads()));
   probe_columns_ = cinch::probe_columns(scene_, preparation_.assembly);
   enclosed_.assign(preparation_.assembly.balls.size(), false);
-  find_start();
-  start();
 }
 
 void Simulation::find_start() {
@@ -186,12 +196,16 @@ void Simulation::check_health() {
 
 void Simulation::remember() { sound_ = state_; }
 
+void Simulation::step_back() {
+  state_ = sound_;
+  stepper_->start_over();
+}
+
 // Scenes without contacts do not watch speeds at every step: the step that went wrong is found by doing
 // again, one by one, those since the last sound state.
 void Simulation::find_fault() {
   const std::int64_t seen = state_.step;
-  state_ = sound_;
-  stepper_->start_over();
+  step_back();
   while (state_.step < seen && speeds_allowed(state_, scene_.time.speed_limit)) stepper_->advance(state_, 1);
   report_runaway(preparation_, model(), state_, scene_.time.speed_limit);
 }

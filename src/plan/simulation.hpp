@@ -18,10 +18,16 @@ class Simulation {
   explicit Simulation(const Scene& scene, int threads = 0);
   /// From what prepare(scene) has given.
   Simulation(const Scene& scene, Preparation preparation, int threads);
+  /// Goes on where the simulation of the same scene stood when save() was called, to the last bit, with any
+  /// number of threads. Throws FileError for what does not belong to the scene.
+  Simulation(const Scene& scene, Preparation preparation, int threads, Archive& saved);
+  void save(Archive& archive) { transfer(archive); }
 
   /// Advances to `step`; closing happens on the way. Throws NumericalError (node, ring or element, time,
   /// likely cause) and leaves the state of the step that went wrong.
   void advance_to(std::int64_t step);
+  /// After that: back to the last state that was found sound, within some thousand steps before.
+  void step_back();
 
   /// How the scene stands now; good until it is advanced or looked at again.
   const Look& look();
@@ -54,6 +60,11 @@ class Simulation {
   bool closed_phase() const { return phase_ + 1 == preparation_.phases.size(); }
 
  private:
+  void make_ready(int threads);
+  void restore(Archive& saved);
+  void transfer(Archive& archive);
+  void transfer_watch(Archive& archive);
+  void transfer_seconds(Archive& archive);
   const Phase& phase() const { return preparation_.phases[phase_]; }
   void find_start();
   void start();

@@ -55,6 +55,51 @@ void Stepper::share_out(State& state) {
   make_pieces(partition(*model_, state, contacts_, threads_));
   if (plan_.contacts()) hand_out_contacts(state);
   else exchange_.set_up(pieces_, owner_, false);
+  if (!dampers_.empty()) hand_out_dampers();
+}
+
+void Stepper::start_over() {
+  contacts_valid_ = false;
+  healthy_ = true;
+  for (const auto& piece : pieces_) piece->forget_dampers();
+}
+
+void Stepper::hand_out_dampers() {
+  for (const auto& piece : pieces_) piece->set_dampers(dampers_);
+  dampers_ = {};
+}
+
+// False where there are none.
+bool Stepper::gather_dampers() {
+  dampers_.assign(at(model_->elements), 0.0);
+  bool known = false;
+  for (const auto& piece : pieces_) known = piece->tell_dampers(dampers_) || known;
+  return known;
+}
+
+void Stepper::transfer_dampers(Archive& archive) {
+  bool known = !archive.restoring() && gather_dampers();
+  archive.flag("dampers/known", known);
+  if (known) {
+    dampers_.resize(at(model_->elements));
+    archive.values("dampers/force", std::span(dampers_));
+  }
+  if (!archive.restoring() || !known) dampers_ = {};
+  else if (!pieces_.empty()) hand_out_dampers();
+}
+
+void Stepper::transfer(Archive& archive, State& state) {
+  if (plan_.damped && plan_.ledger) transfer_dampers(archive);
+  if (!plan_.contacts()) return;
+  archive.flag("contacts/valid", contacts_valid_);
+  archive.value("contacts/motion", motion_);
+  if (!contacts_valid_) return;
+  contacts_.transfer(archive, *model_);
+  for (std::size_t b = 0; b < state.balls.size(); ++b)
+    if (static_cast<Index>(state.balls[b].size()) !=
+        1 + contacts_.ball_begin[b + 1] - contacts_.ball_begin[b])
+      archive.refuse("targets", "does not fit the pairs of contacts");
+  if (archive.restoring() && !pieces_.empty()) hand_out_contacts(state);
 }
 
 void Stepper::hand_out_contacts(State& state) {

@@ -29,7 +29,11 @@ class Stepper {
   void advance(State& state, std::int64_t steps);
 
   /// To be called when the state was set back to that of an earlier step.
-  void start_over() { contacts_valid_ = false, healthy_ = true; }
+  void start_over();
+
+  /// Saves what `state` alone does not tell of how it goes on, to the last bit; or restores it, to be called
+  /// before the first step, with a restored `state`.
+  void transfer(Archive& archive, State& state);
 
   /// Computes the forces of the state as it stands; moves and books nothing, but rings and balls tell the
   /// force that they feel now.
@@ -59,6 +63,9 @@ class Stepper {
   int sweep_depth(const std::vector<std::vector<Index>>& shares) const;
   void renew_contacts(State& state);
   void hand_out_contacts(State& state);
+  void hand_out_dampers();
+  bool gather_dampers();
+  void transfer_dampers(Archive& archive);
   void judge(double greatest, Progress& progress) const;
   Progress run(State& state, std::int64_t steps);
   Progress run_thread(State& state, std::int64_t steps, int thread, Progress from);
@@ -73,6 +80,7 @@ class Stepper {
   std::vector<int> owner_;                      ///< node: its piece (several threads)
   Exchange exchange_;                           ///< (several threads)
   double motion_ = 0;
+  AlignedVector<double> dampers_;  ///< element: restored, and not yet handed to the pieces
   bool contacts_valid_ = false, healthy_ = true;
   std::int64_t windows_ = 0;
   StageSeconds sampled_{};            ///< of the steps that were timed

@@ -191,10 +191,13 @@ struct TimeSpec {
 };
 
 struct OutputSpec {
-  double frame_interval = 0.01;  ///< s
-  double probe_interval = 0;     ///< s; 0: as the frames
-  bool ledger = true;            ///< keep the energy ledger
-  bool compress = false;         ///< deflate frames
+  double frame_interval = 0.01;     ///< s
+  double probe_interval = 0;        ///< s; 0: as the frames
+  bool ledger = true;               ///< keep the energy ledger
+  bool compress = false;            ///< deflate frames
+  bool checkpoint = true;           ///< keep a checkpoint to go on from
+  double checkpoint_interval = 0;   ///< s of simulated time between two; 0: none by it
+  double checkpoint_run_time = 60;  ///< s of run time between two; 0: none by it
 };
 
 enum class ProbeQuantity {
