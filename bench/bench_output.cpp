@@ -18,7 +18,7 @@ class Recorded {
  public:
   Recorded() : simulation_(read_case(case_file("capture"))), frame_(simulation_.frame()) {}
   Recorder open(const TemporaryFolder& folder) {
-    return Recorder(folder.path(), simulation_.result_model(), false);
+    return Recorder(folder.path(), simulation_.result_model(), {});
   }
   void frame(Recorder& recorder) {
     frame_.time += 0.02;

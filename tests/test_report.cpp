@@ -406,7 +406,7 @@ TEST(Report, Tension_levels) {
 
 /// Records the square; `finish`: with a summary.
 void record_square(const fs::path& directory, bool finish) {
-  Recorder recorder(directory, square_model(), false);
+  Recorder recorder(directory, square_model(), {});
   for (int k = 0; k <= 10; ++k) {
     for (int i = 0; i < 10; ++i) {
       const double row[] = {0, k == 5 && i == 3 ? 12.0 : 0.0, 0};

@@ -134,7 +134,7 @@ Summary small_summary() {
 
 void record(const fs::path& directory, const ResultModel& model, int frames, bool compress = false,
             const std::function<void(Frame&)>& change = {}) {
-  Recorder recorder(directory, model, compress);
+  Recorder recorder(directory, model, {.compress = compress});
   for (int k = 0; k < frames; ++k) {
     Frame frame = small_frame(model, k);
     if (change) change(frame);
@@ -234,7 +234,7 @@ TEST(Results, SceneWithoutRingsBallsAndProbes) {
   model.probes.clear();
   model.closing_time.reset();
   {
-    Recorder recorder(scratch.path, model, false);
+    Recorder recorder(scratch.path, model, {});
     recorder.probes(0, {});
     recorder.frame(small_frame(model, 0));
     recorder.finish(small_summary());
@@ -270,7 +270,7 @@ TEST(Results, ProbesComeBack) {
 TEST(Results, ProbeRowsAfterTheLastFrameAreKept) {
   const Scratch scratch;
   const ResultModel model = small_model(4);
-  Recorder recorder(scratch.path, model, false);
+  Recorder recorder(scratch.path, model, {});
   recorder.frame(small_frame(model, 0));
   recorder.probes(1, probe_row(1));
   EXPECT_EQ(Result(scratch.path).probe_times().size(), 0u);
@@ -335,7 +335,7 @@ TEST(Results, OldRunIsReplacedAndOtherFilesStay) {
   record(scratch.path, small_model(4), 3);
   std::ofstream(scratch.path / "notes.txt") << "mine";
   const ResultModel model = small_model(3);
-  Recorder recorder(scratch.path, model, false);
+  Recorder recorder(scratch.path, model, {});
   EXPECT_FALSE(fs::exists(scratch.path / "summary.json"));
   EXPECT_FALSE(fs::exists(scratch.path / "run.xdmf"));
   EXPECT_TRUE(fs::exists(scratch.path / "notes.txt"));
@@ -348,7 +348,7 @@ TEST(Results, OldRunIsReplacedAndOtherFilesStay) {
 TEST(Results, FrameOfTheWrongSizeIsADefect) {
   const Scratch scratch;
   const ResultModel model = small_model(4);
-  Recorder recorder(scratch.path, model, false);
+  Recorder recorder(scratch.path, model, {});
   Frame frame = small_frame(model, 0);
   frame.strain.pop_back();
   EXPECT_THROW(recorder.frame(frame), Error);
@@ -362,7 +362,7 @@ TEST(Results, FrameOfTheWrongSizeIsADefect) {
 
 [[noreturn]] void write_until_killed(const fs::path& directory, const ResultModel& model) {
   try {
-    Recorder recorder(directory, model, false);
+    Recorder recorder(directory, model, {});
     for (int k = 0;; ++k) {
       recorder.probes(k, probe_row(k));
       recorder.frame(small_frame(model, k));
@@ -424,7 +424,7 @@ TEST(Results, KilledWriterLeavesWholeFrames) {
   setrlimit(RLIMIT_FSIZE, &limit);
   int status = 1;
   try {
-    Recorder recorder(directory, model, false);
+    Recorder recorder(directory, model, {});
     for (int k = 0; k < 5000; ++k) recorder.frame(small_frame(model, k));
   } catch (const FileError& error) {
     status = std::string(error.what()).find("File too large") != std::string::npos ? 4 : 2;
@@ -691,7 +691,7 @@ TEST(Results, CompareSeesTheStateHashAndAMissingEnd) {
   const Scratch scratch;
   const ResultModel model = small_model(3);
   for (const char* name : {"a", "b", "c"}) {
-    Recorder recorder(scratch.path / name, model, false);
+    Recorder recorder(scratch.path / name, model, {});
     recorder.frame(small_frame(model, 0));
     Summary summary = small_summary();
     summary.state_hash += *name == 'b';
@@ -741,7 +741,7 @@ TEST(Results, PlaceThatCannotBeWrittenIsNamed) {
   const Scratch scratch;
   std::ofstream(scratch.path / "file") << "in the way";
   try {
-    Recorder recorder(scratch.path / "file" / "run", small_model(3), false);
+    Recorder recorder(scratch.path / "file" / "run", small_model(3), {});
     FAIL();
   } catch (const FileError& error) {
     EXPECT_NE(std::string(error.what()).find("file/run"), std::string::npos) << error.what();

@@ -15,8 +15,10 @@ struct CaseArguments {
 };
 
 struct RunArguments {
-  CaseArguments scene;
-  std::filesystem::path out;  ///< empty: results/NAME, or the first free results/NAME-K
+  CaseArguments scene;            ///< its file is empty where a run goes on
+  std::filesystem::path restart;  ///< a checkpoint or its folder; empty: begin anew
+  std::filesystem::path out;      ///< empty: results/NAME, or the first free results/NAME-K; of a run that
+                                  ///< goes on: where its checkpoint lies
   bool overwrite = false;
   bool quiet = false;
 };

@@ -28,14 +28,15 @@ struct Options {
   cinch::app::ReportArguments report;
 };
 
-void add_case(CLI::App& command, Options& options) {
-  command.add_option("CASE", options.run.scene.file, "case file (TOML)")->required();
+CLI::Option* add_case(CLI::App& command, Options& options) {
+  CLI::Option* const file = command.add_option("CASE", options.run.scene.file, "case file (TOML)");
   command.add_option("--set", options.sets, "override a key of the case: key.path=value")
       ->allow_extra_args(false);
   command
       .add_option("--threads", options.run.scene.threads, "threads (default: as many as pay for the scene)")
       ->check(CLI::Range(1, 4096))
       ->envname("CINCH_THREADS");
+  return file;
 }
 
 struct Commands {
@@ -51,11 +52,19 @@ Commands define(CLI::App& app, Options& options) {
              app.add_subcommand("info", "what is in a result"),
              app.add_subcommand("report", "one HTML page from one or several results"),
              app.add_subcommand("compare", "compare two results: bits, then differences (exit code 5)")};
-  add_case(*c.run, options);
+  CLI::Option* const file = add_case(*c.run, options);
+  c.run
+      ->add_option(
+          "--restart", options.run.restart,
+          "go on from a checkpoint or the results it lies in; --set only what the motion does not know")
+      ->excludes(file);
+  c.run->final_callback([&options] {
+    if (options.run.scene.file.empty() && options.run.restart.empty()) throw CLI::RequiredError("CASE");
+  });
   c.run->add_option("--out", options.run.out, "folder for the results (default: results/NAME)");
   c.run->add_flag("--overwrite", options.run.overwrite, "replace a result that is there already");
   c.run->add_flag("--quiet", options.run.quiet, "no progress, no verdict");
-  add_case(*c.check, options);
+  add_case(*c.check, options)->required();
   c.check->add_flag("--resolved", options.resolved, "print the case with every default written out");
   c.info->add_option("RESULT", options.results, "folder or .vtkhdf file")->required()->expected(1);
   c.report->add_option("RESULT", options.report.results, "folders or .vtkhdf files")

@@ -24,11 +24,13 @@ std::string clock_text(double seconds) {
   return text;
 }
 
-Progress::Progress(double end_time, bool quiet)
+Progress::Progress(double end_time, bool quiet, double simulated, std::int64_t step)
     : end_time_(end_time),
       begin_(now()),
       last_shown_(begin_),
       window_wall_(begin_),
+      window_simulated_(simulated),
+      window_step_(step),
       quiet_(quiet),
       terminal_(isatty(STDERR_FILENO) != 0) {}
 

@@ -7,7 +7,8 @@ namespace cinch::app {
 
 class Progress {
  public:
-  Progress(double end_time, bool quiet);
+  /// `simulated`, `step`: where the run begins.
+  Progress(double end_time, bool quiet, double simulated, std::int64_t step);
   /// Shows simulated time, steps per second, minutes of run time per simulated second and time left, when it
   /// is time.
   void update(double simulated, std::int64_t step);
@@ -16,8 +17,8 @@ class Progress {
 
  private:
   void show(double simulated, std::int64_t step, double wall);
-  double end_time_, begin_, last_shown_, window_wall_, window_simulated_ = 0;
-  std::int64_t window_step_ = 0;
+  double end_time_, begin_, last_shown_, window_wall_, window_simulated_;
+  std::int64_t window_step_;
   bool quiet_, terminal_, open_ = false;
 };
 

@@ -7,12 +7,16 @@
 #include <csignal>
 #include <cstdio>
 #include <iostream>
+#include <optional>
 
 #include "app/commands.hpp"
 #include "app/progress.hpp"
+#include "app/restart.hpp"
+#include "app/schedule.hpp"
 #include "app/signals.hpp"
 #include "base/error.hpp"
 #include "output/recorder.hpp"
+#include "output/result_layout.hpp"
 #include "output/result_reader.hpp"
 #include "plan/simulation.hpp"
 #include "report/report.hpp"
@@ -32,25 +36,9 @@ std::string host_name() {
   return name;
 }
 
-// Steps at which something is due: the k-th is the one nearest to k times the interval.
-class Schedule {
- public:
-  Schedule(double interval, double dt) : interval_(interval), dt_(dt) {}
-  std::int64_t next() const { return std::llround(static_cast<double>(count_) * interval_ / dt_); }
-  bool due(std::int64_t step) {
-    if (step < next()) return false;
-    while (next() <= step) ++count_;
-    return true;
-  }
-
- private:
-  double interval_, dt_;
-  std::int64_t count_ = 0;
-};
-
 // Never writes into a result that is already there, unless asked to.
 fs::path result_folder(const RunArguments& arguments, const std::string& case_name) {
-  const auto taken = [](const fs::path& folder) { return fs::exists(folder / "run.vtkhdf"); };
+  const auto taken = [](const fs::path& folder) { return fs::exists(folder / layout::kResultFile); };
   if (!arguments.out.empty()) {
     if (taken(arguments.out) && !arguments.overwrite)
       throw FileError("error: " + arguments.out.string() +
@@ -66,14 +54,25 @@ fs::path result_folder(const RunArguments& arguments, const std::string& case_na
 // One run: the loop over what is due, and the clocks.
 class Run {
  public:
-  Run(const Scene& scene, int threads, const fs::path& folder, bool quiet)
-      : simulation_(scene, threads),
-        recorder_(folder, simulation_.result_model(), scene.output.compress),
+  // `from`: what it goes on from, or null.
+  Run(const Scene& scene, int threads, fs::path folder, bool quiet, Restart* from)
+      : scene_(scene),
+        folder_(std::move(folder)),
+        begin_(now()),
+        account_(account_of(from)),
+        before_(account_.run_time),
+        simulation_(simulate(scene, threads, from)),
+        recorder_(record_in(folder_, scene, simulation_, account_, from)),
         frames_(scene.output.frame_interval, simulation_.preparation().dt),
-        probes_(scene.output.probe_interval > 0 ? scene.output.probe_interval : scene.output.frame_interval,
-                simulation_.preparation().dt),
-        progress_(scene.time.end, quiet),
-        begin_(now()) {}
+        probes_(probe_interval(scene), simulation_.preparation().dt),
+        checkpoints_(scene.output.checkpoint_interval, simulation_.preparation().dt),
+        progress_(scene.time.end, quiet, simulation_.time(), simulation_.step()),
+        last_checkpoint_(now()) {
+    checkpoints_.due(simulation_.step());
+    if (from == nullptr) return;
+    frames_.due(simulation_.step());
+    probes_.due(simulation_.step());
+  }
 
   Summary go() {
     std::string status = "done", message;
@@ -81,8 +80,9 @@ class Run {
     try {
       record();
       while (simulation_.step() < end && stop_signal() == 0) {
-        simulation_.advance_to(next_stop(end));
+        advance(end);
         record();
+        keep_if_due();
         progress_.update(simulation_.time(), simulation_.step());
       }
     } catch (const NumericalError& error) {  // the frames so far and what led there are kept
@@ -90,16 +90,53 @@ class Run {
       message = error.what();
     }
     if (stop_signal() != 0) status = stop_signal() == SIGTERM ? "terminated" : "interrupted";
-    if (status != "failed") record_frame();
+    if (status != "failed" && scene_.output.checkpoint) keep();
+    record_last_frame();
     progress_.finish();
     return finish(status, message);
   }
 
  private:
-  static constexpr std::int64_t longest_stretch = 20000;  ///< steps between two looks at signals
+  static Account account_of(Restart* from) {
+    Account account;
+    if (from != nullptr) account.transfer(from->archive());
+    return account;
+  }
+  static Simulation simulate(const Scene& scene, int threads, Restart* from) {
+    if (from == nullptr) return Simulation(scene, threads);
+    Preparation preparation = prepare(scene);
+    from->require_later(preparation.end_step, preparation.dt);
+    return Simulation(scene, std::move(preparation), threads, from->archive());
+  }
+  static Recorder record_in(const fs::path& folder, const Scene& scene, const Simulation& simulation,
+                            const Account& account, const Restart* from) {
+    const Recorder::Options options{scene.output.compress,
+                                    std::llround(scene.time.end / scene.output.frame_interval) + 2,
+                                    std::llround(scene.time.end / probe_interval(scene)) + 2};
+    if (from == nullptr) return Recorder(folder, simulation.result_model(), options);
+    return Recorder(
+        folder, simulation.result_model(), options,
+        {from->earlier(), static_cast<int>(account.frames), static_cast<std::size_t>(account.probe_rows)});
+  }
+  static double probe_interval(const Scene& scene) {
+    return scene.output.probe_interval > 0 ? scene.output.probe_interval : scene.output.frame_interval;
+  }
 
-  std::int64_t next_stop(std::int64_t end) const {
-    return std::min({end, frames_.next(), probes_.next(), simulation_.step() + longest_stretch});
+  // To the next step at which something is due, but no longer than signals and checkpoints may wait.
+  void advance(std::int64_t end) {
+    constexpr double patience = 0.2;  // s
+    const std::int64_t from = simulation_.step();
+    const double t0 = now();
+    try {
+      simulation_.advance_to(
+          std::min({end, frames_.next(), probes_.next(), checkpoints_.next(), from + stretch_}));
+    } catch (const NumericalError&) {
+      simulation_.step_back();
+      throw;
+    }
+    const double pace = static_cast<double>(simulation_.step() - from) / std::max(now() - t0, 1e-9);
+    stretch_ =
+        static_cast<std::int64_t>(std::clamp(pace * patience, 1.0, 2.0 * static_cast<double>(stretch_)));
   }
 
   void record() {
@@ -111,22 +148,45 @@ class Run {
     if (probe_due) {
       simulation_.note_events(look);
       const std::vector<double> row = simulation_.probe_row(look);
-      observing_ += now() - t0;
+      account_.observing += now() - t0;
       recorder_.probes(look.time(), row);
+      account_.probe_rows += row.empty() ? 0 : 1;
     }
-    if (frame_due) write(simulation_.frame(look));
+    if (frame_due) {
+      write(simulation_.frame(look));
+      ++account_.frames;
+    }
     simulation_.check_energy(look);  // what showed it is kept
   }
 
-  void record_frame() {
-    if (simulation_.step() != last_frame_) write(simulation_.frame());
+  void keep_if_due() {
+    const OutputSpec& output = scene_.output;
+    const bool by_step = checkpoints_.due(simulation_.step());
+    const bool by_clock =
+        output.checkpoint_run_time > 0 && now() - last_checkpoint_ >= output.checkpoint_run_time;
+    if (output.checkpoint && (by_step || by_clock)) keep();
+  }
+
+  // What the checkpoint counts on is on the disk before it.
+  void keep() {
+    const double t0 = now();
+    recorder_.sync();
+    account_.run_time = before_ + now() - begin_;
+    write_checkpoint(folder_, {scene_.name, scene_.resolved_toml}, account_, simulation_);
+    last_checkpoint_ = now();
+    account_.writing += last_checkpoint_ - t0;
+  }
+
+  // Where it has stopped; it counts for no checkpoint.
+  void record_last_frame() {
+    if (simulation_.step() > last_frame_) write(simulation_.frame());
   }
 
   void write(const Frame& frame) {
     const double t0 = now();
     recorder_.frame(frame);
     last_frame_ = frame.step;
-    writing_ += now() - t0;
+    account_.writing += now() - t0;
   }
 
   Summary finish(const std::string& status, const std::string& message) {
@@ -134,21 +194,26 @@ class Run {
     summary.status = status;
     summary.message = message;
     summary.host = host_name();
-    summary.wall_seconds = now() - begin_;
+    summary.wall_seconds = before_ + now() - begin_;
     for (StageTime& stage : summary.stages) {
-      if (stage.name == stage_name(StageId::observe)) stage.seconds = observing_;
-      if (stage.name == stage_name(StageId::output)) stage.seconds = writing_;
+      if (stage.name == stage_name(StageId::observe)) stage.seconds = account_.observing;
+      if (stage.name == stage_name(StageId::output)) stage.seconds = account_.writing;
     }
     recorder_.finish(summary);
     return summary;
   }
 
+  const Scene& scene_;
+  fs::path folder_;
+  double begin_;
+  Account account_;
+  double before_;  // s: run time of what it goes on from
   Simulation simulation_;
   Recorder recorder_;
-  Schedule frames_, probes_;
+  Schedule frames_, probes_, checkpoints_;
   Progress progress_;
-  double begin_, observing_ = 0, writing_ = 0;
-  std::int64_t last_frame_ = -1;
+  double last_checkpoint_;
+  std::int64_t stretch_ = 64, last_frame_ = -1;
 };
 
 int exit_code(const Summary& summary) {
@@ -161,10 +226,15 @@ int exit_code(const Summary& summary) {
 }  // namespace
 
 int run(const RunArguments& arguments) {
-  const Scene scene = read_case(arguments.scene.file, arguments.scene.overrides);
-  const fs::path folder = result_folder(arguments, scene.name);
+  std::optional<Restart> from;
+  if (!arguments.restart.empty()) from.emplace(arguments.restart);
+  const Scene scene = from ? from->scene(arguments.scene.overrides)
+                           : read_case(arguments.scene.file, arguments.scene.overrides);
+  const fs::path folder =
+      from && arguments.out.empty() ? from->folder() : result_folder(arguments, scene.name);
+  if (from && !arguments.quiet && !from->doubt().empty()) std::cerr << "warning: " << from->doubt() << "\n";
   watch_signals();
-  Run one(scene, arguments.scene.threads, folder, arguments.quiet);
+  Run one(scene, arguments.scene.threads, folder, arguments.quiet, from ? &*from : nullptr);
   const Summary summary = one.go();
   if (!summary.message.empty()) std::cerr << summary.message << "\n";
   for (const std::string& warning : summary.warnings) std::cerr << "warning: " << warning << "\n";

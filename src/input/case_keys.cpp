@@ -117,6 +117,27 @@ const Section<OutputSpec>& output_section() {
             .meaning = "Deflate the frames.",
             .source = "pays only above about 10,000 nodes"},
            into(&OutputSpec::compress)},
+          {{.name = "checkpoint",
+            .type = flag,
+            .fallback = "true",
+            .meaning = "Keep `checkpoint.h5`, from which `cinch run --restart` goes on: written when the run "
+                       "ends or is stopped, and in between as the next two keys say.",
+            .source = ours},
+           into(&OutputSpec::checkpoint)},
+          {{.name = "checkpoint_interval_s",
+            .unit = "s",
+            .range = from(0, 1e6),
+            .fallback = "0",
+            .meaning = "Simulated time between two checkpoints; 0: none for that reason.",
+            .source = ours},
+           into(&OutputSpec::checkpoint_interval)},
+          {{.name = "checkpoint_run_time_s",
+            .unit = "s",
+            .range = from(0, 1e6),
+            .fallback = "60",
+            .meaning = "Run time between two checkpoints; 0: none for that reason.",
+            .source = "a minute is what a kill may cost"},
+           into(&OutputSpec::checkpoint_run_time)},
       });
   return section;
 }

@@ -73,11 +73,11 @@ std::string innermost_reason() {
   throw FileError(path.string() + ": cannot " + what + (reason.empty() ? "" : ": " + reason));
 }
 
-Handle file_access() {
+Handle file_access(bool grows) {
   silence();
   Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
   H5Pset_file_locking(access.get(), 0, 1);
-  H5Pset_alignment(access.get(), kAlignFrom, kPage);
+  if (grows) H5Pset_alignment(access.get(), kAlignFrom, kPage);
   H5Pset_fclose_degree(access.get(), H5F_CLOSE_STRONG);
   return access;
 }
@@ -121,15 +121,17 @@ void Handle::reset() {
   id_ = -1;
 }
 
-File File::create(const std::filesystem::path& path) {
-  const Handle access = file_access();
-  Handle file(H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, access.get()), close_file);
+File File::create(const std::filesystem::path& path, hsize_t user_block) {
+  const Handle access = file_access(user_block == 0);
+  const Handle creation(H5Pcreate(H5P_FILE_CREATE), H5Pclose);
+  H5Pset_userblock(creation.get(), user_block);
+  Handle file(H5Fcreate(path.c_str(), H5F_ACC_TRUNC, creation.get(), access.get()), close_file);
   if (!file) throw_failure(path, "create the file", innermost_reason());
   return {path, std::move(file), true};
 }
 
 File File::open(const std::filesystem::path& path) {
-  const Handle access = file_access();
+  const Handle access = file_access(false);
   Handle file(H5Fopen(path.c_str(), H5F_ACC_RDONLY, access.get()), close_file);
   if (!file) throw_failure(path, "open it as an HDF5 file", innermost_reason());
   return {path, std::move(file), false};

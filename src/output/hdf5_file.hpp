@@ -46,8 +46,13 @@ Handle text_type();  ///< texts of any length, UTF-8
 /// reason.
 class File {
  public:
-  static File create(const std::filesystem::path& path);  ///< replaces an existing file
-  static File open(const std::filesystem::path& path);    ///< for reading
+  /// Replaces an existing file. The first `user_block` bytes (0, or a power of 2 from 512 on) are left to
+  /// others; only a file without such can grow for long and be read after a kill.
+  static File create(const std::filesystem::path& path, hsize_t user_block = 0);
+  static File open(const std::filesystem::path& path);  ///< for reading
+
+  /// The file has been moved there by others.
+  void set_path(std::filesystem::path path) { path_ = std::move(path); }
 
   const std::filesystem::path& path() const { return path_; }
   hid_t id() const { return file_.get(); }

@@ -1,10 +1,13 @@
 #include "output/recorder.hpp"
 
+#include <fcntl.h>
+
 #include <algorithm>
 #include <chrono>
 #include <optional>
 
 #include "base/error.hpp"
+#include "output/descriptor.hpp"
 #include "output/hdf5_file.hpp"
 #include "output/model_io.hpp"
 #include "output/result_layout.hpp"
@@ -23,41 +26,54 @@ using Bytes = h5::Series<std::uint8_t>;
 
 constexpr hsize_t kLargestPacked = 1 << 20;  // bytes: what HDF5 keeps of a compressed data set in memory
 constexpr hsize_t kSmallestPlain = 1 << 17;  // bytes
-constexpr hsize_t kScalarRows = 1024;        // rows in a chunk of single numbers
+constexpr hsize_t kLargestPlain = hsize_t{1} << 31;  // bytes: HDF5 takes chunks below 4 GiB
+constexpr hsize_t kIndexChunks = 60;                 // a node of its index takes 64
+constexpr hsize_t kScalarRows = 1024;                // rows in a chunk of single numbers
 constexpr auto kXdmfInterval = std::chrono::seconds(5);
 
+/// Of so many rows, those in each of as many chunks as one index node has room for.
+hsize_t per_chunk(std::int64_t rows) {
+  return (static_cast<hsize_t>(std::max<std::int64_t>(rows, 0)) + kIndexChunks - 1) / kIndexChunks;
+}
+
 /// Rows in a chunk, for frames of `rows` rows. Compressed: one frame, or an equal part of a large one. Plain:
-/// several small frames, so that the data set's index seldom grows (a kill while HDF5 splits a full index
-/// node of 64 chunks can hide earlier frames).
-hsize_t chunk_rows(hsize_t rows, hsize_t row_bytes, bool compress) {
+/// several frames, so that one index node has room for all that are expected (a kill while HDF5 splits a full
+/// one can hide earlier frames).
+hsize_t chunk_rows(hsize_t rows, hsize_t row_bytes, const Recorder::Options& options) {
   const hsize_t bytes = std::max<hsize_t>(rows * row_bytes, 1);
-  if (!compress) return rows * std::max<hsize_t>(kSmallestPlain / bytes, 1);
+  if (!options.compress) {
+    const hsize_t wanted = std::min(per_chunk(options.frames), kLargestPlain / bytes);
+    return rows * std::max<hsize_t>({kSmallestPlain / bytes, wanted, 1});
+  }
   const hsize_t pieces = (bytes + kLargestPacked - 1) / kLargestPacked;
   return (rows + pieces - 1) / pieces;
 }
 
-h5::SeriesLayout rows_of(std::size_t rows, std::size_t width, std::size_t bytes, bool compress,
-                         const char* unit) {
+h5::SeriesLayout rows_of(std::size_t rows, std::size_t width, std::size_t bytes,
+                         const Recorder::Options& options, const char* unit) {
   h5::SeriesLayout layout;
   if (width > 1) layout.row = {width};
-  layout.chunk_rows = chunk_rows(rows, width * bytes, compress);
-  layout.compress = compress;
+  layout.chunk_rows = chunk_rows(rows, width * bytes, options);
+  layout.compress = options.compress;
   layout.unit = unit;
   return layout;
 }
 
-h5::SeriesLayout numbers(const char* unit = "") { return {{}, kScalarRows, false, unit}; }
+/// Single numbers, of which `expected` rows may come.
+h5::SeriesLayout numbers(std::int64_t expected, const char* unit = "", h5::Shape row = {}) {
+  return {std::move(row), std::max(kScalarRows, per_chunk(expected)), false, unit};
+}
 
 /// What VTK's reader wants to know of each step. The topology never changes, so that most of it is zero for
 /// ever; equal columns are one data set with several names.
 struct StepTable {
-  explicit StepTable(h5::File& file)
-      : times(file, kTimes, numbers("s")),
-        parts(file, "/VTKHDF/Steps/NumberOfParts", numbers()),
-        zeros(file, "/VTKHDF/Steps/PartOffsets", numbers()),
-        topology(file, "/VTKHDF/Steps/CellOffsets", {{1}, kScalarRows, false, ""}),
-        points(file, "/VTKHDF/Steps/PointOffsets", numbers()),
-        cells(file, "/VTKHDF/Steps/CellDataOffsets/tension", numbers()) {
+  StepTable(h5::File& file, std::int64_t frames)
+      : times(file, kTimes, numbers(frames, "s")),
+        parts(file, "/VTKHDF/Steps/NumberOfParts", numbers(frames)),
+        zeros(file, "/VTKHDF/Steps/PartOffsets", numbers(frames)),
+        topology(file, "/VTKHDF/Steps/CellOffsets", numbers(frames, "", {1})),
+        points(file, "/VTKHDF/Steps/PointOffsets", numbers(frames)),
+        cells(file, "/VTKHDF/Steps/CellDataOffsets/tension", numbers(frames)) {
     file.create_link("/VTKHDF/Steps/CellOffsets", "/VTKHDF/Steps/ConnectivityIdOffsets");
     file.create_link("/VTKHDF/Steps/PointOffsets", "/VTKHDF/Steps/PointDataOffsets/velocity");
     file.create_link("/VTKHDF/Steps/PointOffsets", "/VTKHDF/Steps/PointDataOffsets/contact_force");
@@ -79,13 +95,13 @@ struct StepTable {
 
 /// Nodes and elements, frame by frame.
 struct NetSeries {
-  NetSeries(h5::File& file, std::size_t nodes, std::size_t elements, bool compress)
-      : position(file, kPoints, rows_of(nodes, 3, 8, compress, "m")),
-        velocity(file, kVelocity, rows_of(nodes, 3, 8, compress, "m/s")),
-        contact_force(file, kContactForce, rows_of(nodes, 3, 8, compress, "N")),
-        tension(file, kTension, rows_of(elements, 1, 8, compress, "N")),
-        strain(file, kStrain, rows_of(elements, 1, 8, compress, "1")),
-        active(file, kActive, rows_of(elements, 1, 1, compress, "1")) {}
+  NetSeries(h5::File& file, std::size_t nodes, std::size_t elements, const Recorder::Options& options)
+      : position(file, kPoints, rows_of(nodes, 3, 8, options, "m")),
+        velocity(file, kVelocity, rows_of(nodes, 3, 8, options, "m/s")),
+        contact_force(file, kContactForce, rows_of(nodes, 3, 8, options, "N")),
+        tension(file, kTension, rows_of(elements, 1, 8, options, "N")),
+        strain(file, kStrain, rows_of(elements, 1, 8, options, "1")),
+        active(file, kActive, rows_of(elements, 1, 1, options, "1")) {}
   void append(const Frame& frame) {
     position.append(flat(frame.position));
     velocity.append(flat(frame.velocity));
@@ -100,12 +116,12 @@ struct NetSeries {
 
 /// Rings, frame by frame: [frames, rings, 3].
 struct RingSeries {
-  RingSeries(h5::File& file, std::size_t rings, bool compress)
-      : center(file, kRingCenter, slabs(rings, compress, "m")),
-        normal(file, kRingNormal, slabs(rings, compress, "1")),
-        force(file, kRingForce, slabs(rings, compress, "N")) {}
-  static h5::SeriesLayout slabs(std::size_t rings, bool compress, const char* unit) {
-    return {{rings, 3}, chunk_rows(1, rings * 24, compress), compress, unit};
+  RingSeries(h5::File& file, std::size_t rings, const Recorder::Options& options)
+      : center(file, kRingCenter, slabs(rings, options, "m")),
+        normal(file, kRingNormal, slabs(rings, options, "1")),
+        force(file, kRingForce, slabs(rings, options, "N")) {}
+  static h5::SeriesLayout slabs(std::size_t rings, const Recorder::Options& options, const char* unit) {
+    return {{rings, 3}, chunk_rows(1, rings * 24, options), options.compress, unit};
   }
   void append(const Frame& frame) {
     center.append(flat(frame.ring_center));
@@ -116,17 +132,20 @@ struct RingSeries {
 };
 
 void remove_old_run(const std::filesystem::path& directory) {
-  for (const char* name : {kResultFile, kNetXdmfFile, kRingsXdmfFile, kBallsXdmfFile, kSummaryFile}) {
+  for (const char* name :
+       {kResultFile, kNetXdmfFile, kRingsXdmfFile, kBallsXdmfFile, kSummaryFile, kCheckpointFile}) {
     std::error_code error;
     std::filesystem::remove(directory / name, error);
     if (error) throw FileError((directory / name).string() + ": cannot remove it: " + error.message());
   }
 }
 
-h5::File create_file(const std::filesystem::path& directory) {
+/// `draft`: beside the place of the result, which stays for the time being.
+h5::File create_file(const std::filesystem::path& directory, bool draft) {
   std::error_code error;
   std::filesystem::create_directories(directory, error);
   if (error) throw FileError(directory.string() + ": cannot create the directory: " + error.message());
+  if (draft) return h5::File::create(directory / (std::string(kResultFile) + ".tmp"));
   remove_old_run(directory);
   return h5::File::create(directory / kResultFile);
 }
@@ -160,28 +179,33 @@ struct Recorder::Impl {
   Clock::time_point last_xdmf;
   bool finished = false;
 
-  Impl(const std::filesystem::path& folder, ResultModel description, bool compress);
+  Impl(const std::filesystem::path& folder, ResultModel description, const Options& options, bool draft);
   void write_description();
+  void copy(const Earlier& earlier);
+  void take_place();
+  void append(const Frame& frame);
   void write_waiting_probes();
   void commit();
   void write_events(const std::vector<Event>& events);
 };
 
-Recorder::Impl::Impl(const std::filesystem::path& folder, ResultModel description, bool compress)
+Recorder::Impl::Impl(const std::filesystem::path& folder, ResultModel description, const Options& options,
+                     bool draft)
     : directory(folder),
       model(std::move(description)),
       size{model.node_mass.size(), model.elements.size()},
-      file(create_file(folder)),
-      steps(file),
+      file(create_file(folder, draft)),
+      steps(file, options.frames),
       frame_count(file, kSteps, kFrameCount),
-      net(file, size.nodes, size.elements, compress),
-      step_numbers(file, kStepNumbers, numbers()) {
+      net(file, size.nodes, size.elements, options),
+      step_numbers(file, kStepNumbers, numbers(options.frames)) {
   write_description();
-  for (const std::string& term : Energies::names()) energy.emplace_back(file, kEnergy + term, numbers("J"));
-  if (!model.rings.empty()) rings.emplace(file, model.rings.size(), compress);
+  for (const std::string& term : Energies::names())
+    energy.emplace_back(file, kEnergy + term, numbers(options.frames, "J"));
+  if (!model.rings.empty()) rings.emplace(file, model.rings.size(), options);
   if (!model.probes.empty()) {
-    probe_times.emplace(file, kProbeTimes, numbers("s"));
-    probe_values.emplace(file, kProbeValues, h5::SeriesLayout{{model.probes.size()}, kScalarRows, false, ""});
+    probe_times.emplace(file, kProbeTimes, numbers(options.probe_rows, "s"));
+    probe_values.emplace(file, kProbeValues, numbers(options.probe_rows, "", {model.probes.size()}));
     probe_rows.emplace(file, kProbes, kRowCount);
   }
   file.flush();
@@ -193,6 +217,47 @@ void Recorder::Impl::write_description() {
   const auto free = [](auto& list) { list = std::decay_t<decltype(list)>(); };
   free(model.elements), free(model.rest_length), free(model.element_radius);
   free(model.element_part), free(model.node_mass);
+}
+
+void Recorder::Impl::append(const Frame& frame) {
+  require_sizes(frame, size, model.rings.size());
+  const auto k = static_cast<std::int64_t>(times.size());
+  steps.append(frame.time, k * static_cast<std::int64_t>(size.nodes),
+               k * static_cast<std::int64_t>(size.elements));
+  net.append(frame);
+  step_numbers.append(frame.step);
+  const auto energies = frame.energy.values();
+  for (std::size_t i = 0; i < energies.size(); ++i) energy[i].append(energies[i]);
+  if (rings) rings->append(frame);
+  times.push_back(frame.time);
+}
+
+void Recorder::Impl::copy(const Earlier& earlier) {
+  const std::vector<double> earlier_times = earlier.result.probe_times();
+  if (earlier.result.frames() < earlier.frames || earlier_times.size() < earlier.probe_rows)
+    throw FileError("error: " + earlier.result.path().string() + ": holds " +
+                    std::to_string(earlier.result.frames()) + " frames and " +
+                    std::to_string(earlier_times.size()) + " rows of probes; the checkpoint needs " +
+                    std::to_string(earlier.frames) + " and " + std::to_string(earlier.probe_rows));
+  for (int k = 0; k < earlier.frames; ++k) append(earlier.result.frame(k));
+  if (earlier.probe_rows > 0) {
+    const std::vector<double> rows = earlier.result.probe_rows(earlier.probe_rows);
+    waiting_times.assign(earlier_times.begin(),
+                         earlier_times.begin() + static_cast<std::ptrdiff_t>(earlier.probe_rows));
+    waiting_rows = rows;
+    write_waiting_probes();
+  }
+  commit();
+}
+
+// The draft holds what the old file held up to there.
+void Recorder::Impl::take_place() {
+  const std::filesystem::path draft = file.path(), place = directory / kResultFile;
+  std::error_code error;
+  std::filesystem::remove(directory / kSummaryFile, error);
+  std::filesystem::rename(draft, place, error);
+  if (error) throw FileError(place.string() + ": cannot replace it: " + error.message());
+  file.set_path(place);
 }
 
 void Recorder::Impl::write_waiting_probes() {
@@ -225,8 +290,16 @@ void Recorder::Impl::write_events(const std::vector<Event>& events) {
   file.write_texts(group + "/name", names);
 }
 
-Recorder::Recorder(const std::filesystem::path& directory, ResultModel model, bool compress)
-    : impl_(std::make_unique<Impl>(directory, std::move(model), compress)) {}
+Recorder::Recorder(const std::filesystem::path& directory, ResultModel model, const Options& options)
+    : impl_(std::make_unique<Impl>(directory, std::move(model), options, false)) {}
+
+Recorder::Recorder(const std::filesystem::path& directory, ResultModel model, const Options& options,
+                   const Earlier& earlier)
+    : impl_(std::make_unique<Impl>(directory, std::move(model), options, true)) {
+  impl_->copy(earlier);
+  impl_->take_place();
+}
+
 Recorder::Recorder(Recorder&&) noexcept = default;
 Recorder& Recorder::operator=(Recorder&&) noexcept = default;
 
@@ -242,22 +315,13 @@ Recorder::~Recorder() {
 
 void Recorder::frame(const Frame& frame) {
   Impl& run = *impl_;
-  require_sizes(frame, run.size, run.model.rings.size());
   if (run.finished) throw Error(ExitCode::internal, "recorder: a frame after the end");
-  const auto k = static_cast<std::int64_t>(run.times.size());
-  run.steps.append(frame.time, k * static_cast<std::int64_t>(run.size.nodes),
-                   k * static_cast<std::int64_t>(run.size.elements));
-  run.net.append(frame);
-  run.step_numbers.append(frame.step);
-  const auto energies = frame.energy.values();
-  for (std::size_t i = 0; i < energies.size(); ++i) run.energy[i].append(energies[i]);
-  if (run.rings) run.rings->append(frame);
+  run.append(frame);
   run.write_waiting_probes();
-  run.times.push_back(frame.time);
   run.commit();
 
   const auto now = Clock::now();
-  if (k == 0 || now - run.last_xdmf > kXdmfInterval) {
+  if (run.times.size() == 1 || now - run.last_xdmf > kXdmfInterval) {
     write_xdmf(run.directory, run.model, run.size, run.times);
     run.last_xdmf = now;
   }
@@ -271,6 +335,12 @@ void Recorder::probes(double time, std::span<const double> values) {
   if (values.empty()) return;
   run.waiting_times.push_back(time);
   run.waiting_rows.insert(run.waiting_rows.end(), values.begin(), values.end());
+}
+
+void Recorder::sync() {
+  impl_->write_waiting_probes();
+  impl_->commit();
+  Descriptor(impl_->file.path(), O_RDWR).sync();
 }
 
 void Recorder::finish(const Summary& summary) {

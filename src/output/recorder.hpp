@@ -6,6 +6,7 @@
 #include <span>
 
 #include "base/result.hpp"
+#include "output/result_reader.hpp"
 
 namespace cinch {
 
@@ -14,10 +15,25 @@ namespace cinch {
 /// Every function throws FileError when the disk refuses.
 class Recorder {
  public:
+  struct Options {
+    bool compress = false;  ///< shuffle + deflate 1: about a quarter less disk for much time
+    // Those that are expected: as long as there are no more, a kill at no moment can hide any.
+    std::int64_t frames = 0, probe_rows = 0;
+  };
+  /// The part of a result from which a run goes on.
+  struct Earlier {
+    const Result& result;
+    int frames = 0;
+    std::size_t probe_rows = 0;
+  };
+
   /// Creates `directory` and DIR/run.vtkhdf; an old run's files of the same names are removed first (whether
-  /// that is allowed is the caller's business). `compress`: shuffle + deflate 1, about a quarter less disk
-  /// for much time.
-  Recorder(const std::filesystem::path& directory, ResultModel model, bool compress);
+  /// that is allowed is the caller's business).
+  Recorder(const std::filesystem::path& directory, ResultModel model, const Options& options);
+  /// Begins with frames and probe rows of `earlier`, which may lie in `directory`: it is replaced when the
+  /// new file holds them all. Throws FileError where it has fewer.
+  Recorder(const std::filesystem::path& directory, ResultModel model, const Options& options,
+           const Earlier& earlier);
   Recorder(Recorder&&) noexcept;
   Recorder& operator=(Recorder&&) noexcept;
   ~Recorder();  ///< without finish(): keeps frames and probes, writes no summary, reports no errors
@@ -27,6 +43,9 @@ class Recorder {
   /// One row of the probe table at `time` (s): model.probes.size() values. Kept in memory until the next
   /// frame.
   void probes(double time, std::span<const double> values);
+  /// Hands over the waiting probes and returns when the disk has all that was recorded, for a checkpoint that
+  /// counts on it.
+  void sync();
   /// Events and summary into the file, then XDMF and summary.json. Nothing may be recorded afterwards.
   void finish(const Summary& summary);
 

@@ -167,6 +167,12 @@ std::vector<double> Result::probe_times() const {
   return first_rows<double>(impl_->file, kProbeTimes, impl_->rows);
 }
 
+std::vector<double> Result::probe_rows(std::size_t count) const {
+  std::vector<double> table(count * model().probes.size());
+  impl_->file.read_rows<double>(kProbeValues, 0, count, table);
+  return table;
+}
+
 bool Result::has_probe(const std::string& name) const { return impl_->column(name) >= 0; }
 
 std::vector<double> Result::probe(const std::string& name) const {
@@ -178,8 +184,8 @@ std::vector<double> Result::probe(const std::string& name) const {
                     "' (there are: " + (known.empty() ? "none" : known) + ")");
   }
   const std::size_t width = model().probes.size();
-  std::vector<double> table(impl_->rows * width), values(impl_->rows);
-  impl_->file.read_rows<double>(kProbeValues, 0, impl_->rows, table);
+  const std::vector<double> table = probe_rows(impl_->rows);
+  std::vector<double> values(impl_->rows);
   for (std::size_t row = 0; row < values.size(); ++row) {
     values[row] = table[row * width + static_cast<std::size_t>(column)];
   }

@@ -29,6 +29,7 @@ class Result {
   std::vector<Energies> energies() const;  ///< J, one for each frame
 
   std::vector<double> probe_times() const;                     ///< s, one for each row of the probe table
+  std::vector<double> probe_rows(std::size_t count) const;     ///< the first `count` rows, all columns
   std::vector<double> probe(const std::string& column) const;  ///< FileError names the columns there are
   bool has_probe(const std::string& column) const;
 
