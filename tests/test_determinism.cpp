@@ -16,172 +16,19 @@
 #include "input/case_reader.hpp"
 #include "plan/simulation.hpp"
 #include "store/fields.hpp"
+#include "support/outcome.hpp"
+#include "support/quick_cases.hpp"
 
 namespace {
 
 using namespace cinch;
-using Sets = std::vector<Override>;
-
-// ----------------------------------------------------------------------------------------------------
-// Scenes that close and touch within some thousand steps
-
-struct Case {
-  const char* name;
-  Sets sets;
-  std::int64_t steps;
-};
-
-std::string case_file(const Case& one) {
-  return std::string(CINCH_SOURCE_DIR) + "/cases/" + one.name + ".toml";
-}
-
-Scene read(const Case& one) { return read_case(case_file(one), one.sets); }
-
-// The thread starts 0.1 mm from the wire.
-Case ring_pull() {
-  return {
-      "ring_pull", {{"thread.main.velocity_m_s", "[0, 0, -1]"}, {"ring.r1.center_m", "[0, 0, 0.0069]"}}, 400};
-}
-
-// The masses fall under 100 g, the rings are narrow.
-Case edge_closure() {
-  return {"edge_closure",
-          {{"gravity.acceleration_m_s2", "[0, 0, -981]"}, {"rings.r.diameter_m", "0.0043"}},
-          1200};
-}
-
-// Deployed, at the ball, narrow rings, fast split masses: closes at step 100.
-Case capture() {
-  Case one{"capture",
-           {{"net.main.stowed_factor", "1"},
-            {"closing.time_s", "0.0001"},
-            {"rings.r.diameter_m", "0.0062"},
-            {"target.ball.center_m", "[0.05, 0, 0.1505]"}},
-           1000};
-  const char* const ways[4][2] = {{"[-10, -10, 0]", "[10, 10, 0]"},
-                                  {"[-10, 10, 0]", "[10, -10, 0]"},
-                                  {"[10, 10, 0]", "[-10, -10, 0]"},
-                                  {"[10, -10, 0]", "[-10, 10, 0]"}};
-  for (std::size_t m = 0; m < 4; ++m) {
-    const std::string mechanism = "mechanism.m" + std::to_string(m + 1);
-    one.sets.push_back({mechanism + ".separation_a_m_s", ways[m][0]});
-    one.sets.push_back({mechanism + ".separation_b_m_s", ways[m][1]});
-  }
-  return one;
-}
-
-// The large capture at 0.5 m instead of 20 m, with narrow rings.
-Case small_large_capture() {
-  Case one{"large_capture",
-           {{"net.main.size_m", "[0.5, 0.5]"},
-            {"closing.time_s", "0.0002"},
-            {"rings.r.diameter_m", "0.0142"},
-            {"target.ball.radius_m", "0.2"},
-            {"target.ball.center_m", "[0.05, 0.05, 0.2008]"}},
-           800};
-  for (const char* thread : {"c_top", "c_right", "c_bottom", "c_left"}) {
-    one.sets.push_back({std::string("thread.") + thread + ".elements", "70"});
-    one.sets.push_back({std::string("thread.") + thread + ".length_m", "0.7"});
-  }
-  for (const char* mechanism : {"m1", "m2", "m3", "m4"}) {
-    one.sets.push_back({std::string("mechanism.") + mechanism + ".towing_length_m", "0.1"});
-    one.sets.push_back({std::string("mechanism.") + mechanism + ".towing_elements", "1"});
-  }
-  return one;
-}
-
-// The same scenes with rings that slide; the capture's begin with two in one element.
-Case sliding(Case one, int elements, const char* step, std::int64_t steps) {
-  one.sets.push_back(
-      {one.name == std::string("ring_pull") ? "ring.r1.joint" : "rings.r.joint", "\"sliding\""});
-  one.sets.push_back({"time.step_s", step});
-  one.steps = steps;
-  if (one.name == std::string("ring_pull")) {
-    one.sets.push_back({"thread.main.elements", std::to_string(elements)});
-    return one;
-  }
-  for (const char* thread : {"c_top", "c_right", "c_bottom", "c_left"})
-    one.sets.push_back({std::string("thread.") + thread + ".elements", std::to_string(elements)});
-  return one;
-}
-Case sliding_ring_pull() {
-  return sliding({"ring_pull", {{"thread.main.velocity_m_s", "[0, 0, -1]"}}, 0}, 26, "2e-5", 20000);
-}
-Case sliding_capture() { return sliding(capture(), 3, "4e-6", 8000); }
-
-// The large capture in full size: hundreds of blocks, few steps.
-Case full_large_capture() {
-  return {"large_capture", {{"closing.time_s", "0.00004"}, {"target.ball.center_m", "[0, 0, 3.0005]"}}, 60};
-}
-
-// ----------------------------------------------------------------------------------------------------
-// Everything that a run has computed, as bits
-
-template <class List>
-void append(std::string& bits, const List& list) {
-  static_assert(std::has_unique_object_representations_v<typename List::value_type> ||
-                    std::is_trivially_copyable_v<typename List::value_type>,
-                "plain data without pointers");
-  bits.append(reinterpret_cast<const char*>(list.data()), list.size() * sizeof(typename List::value_type));
-}
-
-static_assert(sizeof(kernel::JointState) == 11 * sizeof(double) + 4 * sizeof(int),
-              "no padding between its fields");
-static_assert(sizeof(kernel::RingTally) == 16 * sizeof(double) + 2 * sizeof(int),
-              "no padding between its fields");
-
-struct Outcome {
-  std::uint64_t hash = 0;
-  std::string nodes, rings, joints, reactions, dissipated, energies, frame;
-  double ball_impulse = 0;
-  std::size_t rings_touched = 0;
-  bool ball_touched = false, closed = false;
-
-  bool operator==(const Outcome&) const = default;
-};
-
-Outcome outcome_of(Simulation& simulation) {
-  Outcome out;
-  const Frame frame = simulation.frame();  // brings all tallies to the present step
-  const State& s = simulation.state();
-  out.hash = state_hash(s);
-  for (const auto* field : {&s.x, &s.y, &s.z, &s.vx, &s.vy, &s.vz}) append(out.nodes, *field);
-  append(out.rings, s.rings);
-  append(out.joints, s.joints);
-  append(out.reactions, s.reactions);
-  append(out.dissipated, s.dissipated);
-  append(out.energies, frame.energy.values());
-  append(out.frame, frame.tension);
-  for (const auto* field : {&frame.position, &frame.velocity, &frame.contact_force, &frame.ring_force})
-    for (const Vec3& v : *field) append(out.frame, std::vector<double>{v.x(), v.y(), v.z()});
-  for (const auto& ball : s.balls)
-    for (const kernel::BallTally& tally : ball) {
-      out.ball_impulse +=
-          tally.impulse[0] + 3 * tally.impulse[1] + 7 * tally.impulse[2] + 11 * tally.dissipated;
-      out.ball_touched = out.ball_touched || tally.first_time >= 0;
-    }
-  for (const kernel::RingTally& ring : s.rings) out.rings_touched += ring.first_time >= 0;
-  out.closed = simulation.closed_phase();
-  return out;
-}
+using namespace cinch::test;
 
 Outcome run(const Case& one, int threads) {
   Simulation simulation(read(one), threads);
   simulation.advance_to(one.steps);
   EXPECT_EQ(simulation.threads(), threads);
   return outcome_of(simulation);
-}
-
-void expect_same(const Outcome& a, const Outcome& b) {
-  EXPECT_EQ(a.hash, b.hash);
-  EXPECT_TRUE(a.nodes == b.nodes) << "node fields";
-  EXPECT_TRUE(a.rings == b.rings) << "ring tallies";
-  EXPECT_TRUE(a.joints == b.joints) << "sliding joints";
-  EXPECT_TRUE(a.reactions == b.reactions) << "reactions";
-  EXPECT_TRUE(a.dissipated == b.dissipated) << "energy lost in dampers";
-  EXPECT_TRUE(a.energies == b.energies) << "energies";
-  EXPECT_TRUE(a.frame == b.frame) << "frame";
-  EXPECT_TRUE(a == b) << "anything else";
 }
 
 void expect_same_for_all_threads(const Case& one, const std::vector<int>& numbers, std::size_t rings,

@@ -98,6 +98,14 @@ Handle parents() {
   return list;
 }
 
+// Texts are converted on their way, through a buffer that HDF5 clears each time: 1 MiB by default, which
+// would be most of a short run's time.
+Handle transfer() {
+  Handle list(H5Pcreate(H5P_DATASET_XFER), H5Pclose);
+  H5Pset_buffer(list.get(), 16 * 1024, nullptr, nullptr);
+  return list;
+}
+
 }  // namespace
 
 Handle text_type() {
@@ -196,11 +204,11 @@ Shape File::shape(const std::string& name) const {
 void File::write_raw(const std::string& name, hid_t memory, hid_t stored, const void* data,
                      const Shape& shape, std::string_view unit) {
   silence();
-  const Handle space = make_space(shape), above = parents();
+  const Handle space = make_space(shape), above = parents(), way = transfer();
   const Handle dataset(
       H5Dcreate2(id(), name.c_str(), stored, space.get(), above.get(), H5P_DEFAULT, H5P_DEFAULT), H5Dclose);
   if (!dataset) fail("create " + name);
-  if (product(shape) > 0 && H5Dwrite(dataset.get(), memory, H5S_ALL, H5S_ALL, H5P_DEFAULT, data) < 0) {
+  if (product(shape) > 0 && H5Dwrite(dataset.get(), memory, H5S_ALL, H5S_ALL, way.get(), data) < 0) {
     fail("write " + name);
   }
   if (!unit.empty()) set_attribute(name, "unit", unit);
@@ -258,10 +266,10 @@ void File::write_texts(const std::string& name, const std::vector<std::string>& 
 std::vector<std::string> File::read_texts(const std::string& name) const {
   const Handle dataset = open_dataset(name);
   const Handle space(H5Dget_space(dataset.get()), H5Sclose);
-  const Handle type = text_type();
+  const Handle type = text_type(), way = transfer();
   std::vector<char*> pointers(product(shape(name)), nullptr);
   if (pointers.empty()) return {};
-  if (H5Dread(dataset.get(), type.get(), H5S_ALL, H5S_ALL, H5P_DEFAULT, pointers.data()) < 0) {
+  if (H5Dread(dataset.get(), type.get(), H5S_ALL, H5S_ALL, way.get(), pointers.data()) < 0) {
     fail("read " + name);
   }
   std::vector<std::string> texts;
@@ -293,8 +301,9 @@ Series<T>::Series(File& file, std::string name, const SeriesLayout& layout)
     H5Pset_shuffle(creation.get());
     H5Pset_deflate(creation.get(), 1);
   } else {
-    H5Pset_chunk_cache(access.get(), 0, 0,
-                       0);  // rows go straight to their place, not a whole chunk at each flush
+    // rows go straight to their place: no chunk is filled or kept in memory, however large
+    H5Pset_chunk_cache(access.get(), 0, 0, 0);
+    H5Pset_fill_time(creation.get(), H5D_FILL_TIME_NEVER);
   }
   dataset_ = Handle(H5Dcreate2(file.id(), name_.c_str(), Number<T>::stored(), space.get(), above.get(),
                                creation.get(), access.get()),

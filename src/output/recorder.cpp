@@ -159,6 +159,15 @@ void require_sizes(const Frame& frame, NetSize net, std::size_t rings) {
   if (!fits) throw Error(ExitCode::internal, "recorder: a frame does not have the model's sizes");
 }
 
+void require_enough(const Recorder::Earlier& earlier) {
+  const std::size_t frames = static_cast<std::size_t>(earlier.result.frames()),
+                    rows = earlier.result.probe_times().size();
+  if (frames >= static_cast<std::size_t>(earlier.frames) && rows >= earlier.probe_rows) return;
+  throw FileError("error: " + earlier.result.path().string() + ": holds " + std::to_string(frames) +
+                  " frames and " + std::to_string(rows) + " rows of probes; the checkpoint needs " +
+                  std::to_string(earlier.frames) + " and " + std::to_string(earlier.probe_rows));
+}
+
 }  // namespace
 
 struct Recorder::Impl {
@@ -233,18 +242,11 @@ void Recorder::Impl::append(const Frame& frame) {
 }
 
 void Recorder::Impl::copy(const Earlier& earlier) {
-  const std::vector<double> earlier_times = earlier.result.probe_times();
-  if (earlier.result.frames() < earlier.frames || earlier_times.size() < earlier.probe_rows)
-    throw FileError("error: " + earlier.result.path().string() + ": holds " +
-                    std::to_string(earlier.result.frames()) + " frames and " +
-                    std::to_string(earlier_times.size()) + " rows of probes; the checkpoint needs " +
-                    std::to_string(earlier.frames) + " and " + std::to_string(earlier.probe_rows));
   for (int k = 0; k < earlier.frames; ++k) append(earlier.result.frame(k));
   if (earlier.probe_rows > 0) {
-    const std::vector<double> rows = earlier.result.probe_rows(earlier.probe_rows);
-    waiting_times.assign(earlier_times.begin(),
-                         earlier_times.begin() + static_cast<std::ptrdiff_t>(earlier.probe_rows));
-    waiting_rows = rows;
+    const std::vector<double> all = earlier.result.probe_times();
+    waiting_times.assign(all.begin(), all.begin() + static_cast<std::ptrdiff_t>(earlier.probe_rows));
+    waiting_rows = earlier.result.probe_rows(earlier.probe_rows);
     write_waiting_probes();
   }
   commit();
@@ -294,8 +296,9 @@ Recorder::Recorder(const std::filesystem::path& directory, ResultModel model, co
     : impl_(std::make_unique<Impl>(directory, std::move(model), options, false)) {}
 
 Recorder::Recorder(const std::filesystem::path& directory, ResultModel model, const Options& options,
-                   const Earlier& earlier)
-    : impl_(std::make_unique<Impl>(directory, std::move(model), options, true)) {
+                   const Earlier& earlier) {
+  require_enough(earlier);
+  impl_ = std::make_unique<Impl>(directory, std::move(model), options, true);
   impl_->copy(earlier);
   impl_->take_place();
 }

@@ -78,14 +78,15 @@ bool Stepper::gather_dampers() {
 }
 
 void Stepper::transfer_dampers(Archive& archive) {
-  bool known = !archive.restoring() && gather_dampers();
+  const bool waiting = !dampers_.empty();  // restored, and no step since
+  bool known = waiting || (!archive.restoring() && gather_dampers());
   archive.flag("dampers/known", known);
   if (known) {
     dampers_.resize(at(model_->elements));
     archive.values("dampers/force", std::span(dampers_));
   }
-  if (!archive.restoring() || !known) dampers_ = {};
-  else if (!pieces_.empty()) hand_out_dampers();
+  if (archive.restoring() && known && !pieces_.empty()) hand_out_dampers();
+  if (!archive.restoring() && !waiting) dampers_ = {};
 }
 
 void Stepper::transfer(Archive& archive, State& state) {

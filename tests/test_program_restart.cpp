@@ -1,0 +1,226 @@
+// Runs that are stopped, killed or short of disk, and go on: driven as a user drives them.
+#include <chrono>
+#include <random>
+#include <thread>
+
+#include "output/compare.hpp"
+#include "output/result_reader.hpp"
+#include "support/program.hpp"
+
+namespace {
+
+using namespace cinch::test;
+
+class Restarted : public Program {
+ protected:
+  // Until `end_s`, in one go or further.
+  Words begin(const std::string& end_s, const std::string& out) const {
+    return {"run", "tiny.toml", "--quiet", "--set", "time.end_s=" + end_s, "--out", out};
+  }
+  Words go_on(const std::string& end_s, const std::string& from) const {
+    return {"run", "--quiet", "--restart", from, "--set", "time.end_s=" + end_s};
+  }
+  bool same(const std::string& a, const std::string& b) const {
+    const cinch::Comparison found = cinch::compare_results(cinch::Result(path(a)), cinch::Result(path(b)));
+    std::ostringstream text;
+    cinch::print_comparison(found, text);
+    EXPECT_TRUE(found.identical) << text.str();
+    return found.identical;
+  }
+  std::string last_energies(const std::string& name) const { return summary(name).at("energy").dump(); }
+};
+
+TEST_F(Restarted, IsTheSameAsOneRun) {
+  ASSERT_EQ(run(begin("0.001", "whole")), 0) << err();
+  ASSERT_EQ(run(begin("0.00043", "r")), 0) << err();  // no time of a frame
+  ASSERT_EQ(run(go_on("0.000777", "r")), 0) << err();
+  Words last = go_on("0.001", "r/checkpoint.h5");
+  last.insert(last.end(), {"--threads", "2"});
+  ASSERT_EQ(run(last), 0) << err();
+  EXPECT_TRUE(same("whole", "r"));
+  EXPECT_EQ(last_energies("whole"), last_energies("r"));
+  EXPECT_EQ(summary("whole").at("rings"), summary("r").at("rings"));
+  EXPECT_EQ(summary("whole").at("events"), summary("r").at("events"));
+  EXPECT_EQ(cinch::Result(path("r")).frames(), 11);
+  EXPECT_EQ(cinch::Result(path("r")).probe_times().size(), 21u);
+  EXPECT_FALSE(fs::exists(path("r/run.vtkhdf.tmp")));
+}
+
+TEST_F(Restarted, ElsewhereLeavesWhatItGoesOnFrom) {
+  ASSERT_EQ(run(begin("0.001", "whole")), 0) << err();
+  ASSERT_EQ(run(begin("0.0004", "r")), 0) << err();
+  const std::string before = text_of(path("r/run.vtkhdf")), checkpoint = text_of(path("r/checkpoint.h5"));
+  Words elsewhere = go_on("0.001", "r");
+  elsewhere.insert(elsewhere.end(), {"--out", "other"});
+  ASSERT_EQ(run(elsewhere), 0) << err();
+  EXPECT_TRUE(same("whole", "other"));
+  EXPECT_EQ(text_of(path("r/run.vtkhdf")), before);
+  EXPECT_EQ(text_of(path("r/checkpoint.h5")), checkpoint);
+  EXPECT_EQ(run(elsewhere), 4) << "there is a result already";
+  EXPECT_TRUE(has(err(), "other holds a result already")) << err();
+}
+
+TEST_F(Restarted, WhileSomebodyReadsTheResult) {
+  ASSERT_EQ(run(begin("0.001", "whole")), 0) << err();
+  ASSERT_EQ(run(begin("0.0004", "r")), 0) << err();
+  const cinch::Result open(path("r"));
+  ASSERT_EQ(run(go_on("0.001", "r")), 0) << err();
+  EXPECT_EQ(open.frames(), 5);
+  EXPECT_EQ(open.frame(4).step, 400) << "what was opened is still there";
+  EXPECT_TRUE(same("whole", "r"));
+}
+
+TEST_F(Restarted, AfterASignal) {
+  const pid_t child = start(endless);
+  for (int k = 0; k < 200 && !fs::exists(path("r/run.vtkhdf")); ++k)
+    std::this_thread::sleep_for(std::chrono::milliseconds(50));
+  std::this_thread::sleep_for(std::chrono::milliseconds(300));
+  kill(child, SIGINT);
+  EXPECT_EQ(wait_for(child), 130);
+  const double stopped = summary("r").at("simulated_seconds");
+  ASSERT_GT(stopped, 0);
+  const std::string end = std::to_string(stopped + 0.0137);
+  ASSERT_EQ(run(go_on(end, "r")), 0) << err();
+  Words whole = endless;
+  whole.insert(whole.end(), {"--set", "time.end_s=" + end, "--out", "whole", "--quiet"});
+  std::erase(whole, "time.end_s=100");
+  whole.erase(std::find(whole.begin(), whole.end(), "--set"));  // the one that is left without a value
+  whole.erase(std::find(whole.begin(), whole.end(), "r"));
+  whole.erase(std::find(whole.begin(), whole.end(), "--out"));
+  ASSERT_EQ(run(whole), 0) << err();
+  EXPECT_TRUE(same("whole", "r"));
+}
+
+TEST_F(Restarted, RunTimesAddUp) {
+  ASSERT_EQ(run(begin("0.0004", "r")), 0) << err();
+  const double first = summary("r").at("wall_seconds");
+  ASSERT_EQ(run(go_on("0.0005", "r")), 0) << err();
+  EXPECT_GT(summary("r").at("wall_seconds").get<double>(), first);
+}
+
+// ----------------------------------------------------------------------------------------------------
+// Killed at random moments
+
+TEST_F(Restarted, AfterTwoHundredKills) {
+  std::mt19937 random(20261126);
+  std::uniform_int_distribution<int> life_us(0, 140'000);
+  const Words sets{"--quiet", "--set", "output.checkpoint_run_time_s=0.002"};
+  Words first{"run",
+              "tiny.toml",
+              "--overwrite",
+              "--out",
+              "r",
+              "--set",
+              "output.frame_interval_s=0.001",
+              "--set",
+              "output.probe_interval_s=0.0003",
+              "--set",
+              "time.end_s=1000"};
+  Words next{"run", "--restart", "r"};
+  for (Words* words : {&first, &next}) words->insert(words->end(), sets.begin(), sets.end());
+  int went_on = 0, frames = 0;
+  for (int life = 0; life < 200; ++life) {
+    const bool kept = fs::exists(path("r/checkpoint.h5"));
+    const pid_t child = start(kept ? next : first);
+    std::this_thread::sleep_for(std::chrono::microseconds(life_us(random)));
+    kill(child, SIGKILL);
+    ASSERT_EQ(wait_for(child), 1000 + SIGKILL) << err();
+    went_on += kept;
+    if (!fs::exists(path("r/checkpoint.h5"))) continue;
+    const cinch::Result result(path("r"));  // throws for what cannot be read
+    for (int k = std::max(result.frames() - 3, 0); k < result.frames(); ++k)
+      for (const cinch::Vec3& x : result.frame(k).position) ASSERT_TRUE(x.allFinite());
+    frames = std::max(frames, result.frames());
+  }
+  EXPECT_GT(went_on, 100);
+  EXPECT_GT(frames, 10) << "it got on from life to life";
+  const std::string end = "time.end_s=" + std::to_string(0.001 * frames + 0.0137);
+  next.insert(next.end(), {"--set", end});
+  ASSERT_EQ(run(next), 0) << err();
+  first[4] = "whole";
+  first.insert(first.end(), {"--set", end});
+  ASSERT_EQ(run(first), 0) << err();
+  EXPECT_TRUE(same("whole", "r"));
+  EXPECT_EQ(last_energies("whole"), last_energies("r"));
+}
+
+// ----------------------------------------------------------------------------------------------------
+// No room on the disk
+
+TEST_F(Restarted, AFullDiskKeepsFramesAndCheckpoint) {
+  const Words words = {"run",
+                       "tiny.toml",
+                       "--quiet",
+                       "--out",
+                       "r",
+                       "--set",
+                       "time.end_s=0.2",
+                       "--set",
+                       "output.checkpoint_interval_s=0.001"};
+  EXPECT_EQ(run(words, "ulimit -f 4000; "), 4) << "files may not grow beyond 4000 blocks";
+  EXPECT_TRUE(has(err(), "r/run.vtkhdf") && has(err(), "File too large")) << err();
+  const int kept = cinch::Result(path("r")).frames();
+  EXPECT_GT(kept, 10);
+  ASSERT_EQ(run(go_on("0.05", "r")), 0) << "with room again: " << err();
+  Words whole = words;
+  whole[4] = "whole";
+  whole[6] = "time.end_s=0.05";
+  ASSERT_EQ(run(whole), 0) << err();
+  EXPECT_TRUE(same("whole", "r"));
+}
+
+// ----------------------------------------------------------------------------------------------------
+// What is refused, with nothing changed
+
+TEST_F(Restarted, ChangesThatTheMotionWouldHaveToKnowAreRefused) {
+  ASSERT_EQ(run(begin("0.0004", "r")), 0) << err();
+  const std::string before = text_of(path("r/run.vtkhdf"));
+  Words changed = go_on("0.001", "r");
+  changed.insert(changed.end(), {"--set", "ring.r1.mass_kg=1"});
+  EXPECT_EQ(run(changed), 2);
+  EXPECT_TRUE(has(err(), "ring.r1.mass_kg=1: a run that goes on keeps its case; allowed: time.end_s"))
+      << err();
+  EXPECT_EQ(run(go_on("0.0004", "r")), 2);
+  EXPECT_TRUE(has(err(), "stands at 0.0004 s, and the case ends at 0.0004 s")) << err();
+  EXPECT_EQ(run(go_on("soon", "r")), 2);
+  EXPECT_TRUE(has(err(), "time.end_s=soon")) << err();
+  EXPECT_EQ(run({"run", "tiny.toml", "--restart", "r"}), 2);
+  EXPECT_EQ(run({"run"}), 2);
+  EXPECT_TRUE(has(err(), "CASE")) << err();
+  EXPECT_EQ(text_of(path("r/run.vtkhdf")), before);
+  EXPECT_EQ(summary("r").at("status"), "done");
+}
+
+TEST_F(Restarted, WhatIsMissingOrDamagedIsNamed) {
+  EXPECT_EQ(run({"run", "--restart", "nowhere"}), 4);
+  EXPECT_TRUE(has(err(), "nowhere: no such file or directory")) << err();
+  ASSERT_EQ(run(begin("0.0004", "r")), 0) << err();
+  const std::string checkpoint = text_of(path("r/checkpoint.h5")), early = text_of(path("r/run.vtkhdf"));
+  std::string damaged = checkpoint;
+  damaged[damaged.size() / 2] ^= 1;
+  write("r/checkpoint.h5", damaged);
+  EXPECT_EQ(run(go_on("0.001", "r")), 4);
+  EXPECT_TRUE(has(err(), "r/checkpoint.h5: the checkpoint is damaged")) << err();
+
+  write("r/checkpoint.h5", checkpoint);
+  ASSERT_EQ(run(go_on("0.0008", "r")), 0) << err();
+  write("r/run.vtkhdf", early);  // holds less than the checkpoint counts on
+  EXPECT_EQ(run(go_on("0.001", "r")), 4);
+  EXPECT_TRUE(has(err(), "holds 5 frames and 9 rows of probes; the checkpoint needs 9 and 17")) << err();
+  EXPECT_EQ(text_of(path("r/run.vtkhdf")), early);
+  EXPECT_FALSE(fs::exists(path("r/run.vtkhdf.tmp")));
+  fs::remove(path("r/run.vtkhdf"));
+  EXPECT_EQ(run(go_on("0.001", "r")), 4);
+}
+
+TEST_F(Restarted, ACaseMayDoWithoutCheckpoints) {
+  ASSERT_EQ(run(begin("0.0004", "r")), 0) << err();
+  Words without = begin("0.0004", "r");
+  without.insert(without.end(), {"--overwrite", "--set", "output.checkpoint=false"});
+  ASSERT_EQ(run(without), 0) << err();
+  EXPECT_FALSE(fs::exists(path("r/checkpoint.h5"))) << "that of the run before does not belong to this one";
+  EXPECT_EQ(run(go_on("0.001", "r")), 4);
+  EXPECT_TRUE(has(err(), "r: no checkpoint.h5 in this directory")) << err();
+}
+
+}  // namespace

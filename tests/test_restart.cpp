@@ -1,0 +1,260 @@
+// A simulation that goes on from what was saved is the one that was never stopped, to the last bit; what does
+// not belong to it is refused.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <random>
+
+#include "base/error.hpp"
+#include "input/case_reader.hpp"
+#include "plan/simulation.hpp"
+#include "support/memory_archive.hpp"
+#include "support/outcome.hpp"
+#include "support/quick_cases.hpp"
+#include "support/scenes.hpp"
+
+namespace {
+
+using namespace cinch;
+using namespace cinch::test;
+
+Entries saved(Simulation& simulation) {
+  MemoryArchive archive;
+  simulation.save(archive);
+  return archive.entries;
+}
+
+Simulation restored(const Scene& scene, int threads, const Entries& entries) {
+  MemoryArchive archive(entries);
+  return Simulation(scene, prepare(scene), threads, archive);
+}
+
+// Looks as a run does.
+void advance(Simulation& simulation, std::int64_t until) {
+  while (simulation.step() < until) {
+    simulation.advance_to(std::min(until, simulation.step() / 37 * 37 + 37));
+    if (simulation.step() % 37 == 0) simulation.note_events(simulation.look());
+  }
+}
+
+void expect_same_summary(Summary a, Summary b) {
+  EXPECT_EQ(a.energy.values(), b.energy.values());
+  EXPECT_EQ(a.energy_initial, b.energy_initial);
+  EXPECT_EQ(a.relative_residual, b.relative_residual);
+  EXPECT_EQ(a.linear_momentum_drift, b.linear_momentum_drift);
+  EXPECT_EQ(a.angular_momentum_drift, b.angular_momentum_drift);
+  EXPECT_EQ(a.max_penetration, b.max_penetration);
+  ASSERT_EQ(a.events.size(), b.events.size());
+  for (std::size_t i = 0; i < a.events.size(); ++i) {
+    EXPECT_EQ(a.events[i].time, b.events[i].time);
+    EXPECT_EQ(a.events[i].kind, b.events[i].kind);
+    EXPECT_EQ(a.events[i].name, b.events[i].name);
+  }
+  for (std::size_t r = 0; r < a.ring_records.size(); ++r) {
+    EXPECT_EQ(a.ring_records[r].first_contact_time, b.ring_records[r].first_contact_time);
+    EXPECT_EQ(a.ring_records[r].peak_force, b.ring_records[r].peak_force);
+    EXPECT_EQ(a.ring_records[r].peak_time, b.ring_records[r].peak_time);
+  }
+}
+
+// Stopped at several steps on the way, by turns with one, two and three threads.
+void expect_goes_on(const Case& one, const std::vector<std::int64_t>& stops) {
+  const Scene scene = read(one);
+  Simulation whole(scene, 1);
+  advance(whole, one.steps);
+  const Outcome expected = outcome_of(whole);
+  const Summary summary = whole.summary();
+  Simulation begin(scene, 2);
+  advance(begin, stops.front());
+  Entries entries = saved(begin);
+  for (std::size_t k = 1; k <= stops.size(); ++k) {
+    const int threads = static_cast<int>(k % 3) + 1;
+    SCOPED_TRACE(std::to_string(threads) + " threads from step " + std::to_string(stops[k - 1]));
+    Simulation next = restored(scene, threads, entries);
+    ASSERT_EQ(next.step(), stops[k - 1]);
+    const std::int64_t until = k < stops.size() ? stops[k] : one.steps;
+    advance(next, until);
+    entries = saved(next);
+    if (k < stops.size()) continue;
+    expect_same(outcome_of(next), expected);
+    expect_same_summary(next.summary(), summary);
+  }
+}
+
+TEST(Restart, RingPull) { expect_goes_on(ring_pull(), {0, 1, 100, 201, 399}); }
+TEST(Restart, EdgeClosure) { expect_goes_on(edge_closure(), {3, 500, 777, 1111}); }
+TEST(Restart, CaptureBeforeAtAndAfterItCloses) {
+  expect_goes_on(capture(), {50, 99, 100, 101, 333, 700, 999});
+}
+TEST(Restart, SmallLargeCapture) { expect_goes_on(small_large_capture(), {150, 201, 555}); }
+TEST(Restart, SlidingRingPull) { expect_goes_on(sliding_ring_pull(), {1, 3001, 7777, 15001}); }
+TEST(Restart, SlidingCapture) { expect_goes_on(sliding_capture(), {20, 26, 1111, 5003}); }
+
+// Each step is a stop: whatever a step leaves behind is saved.
+TEST(Restart, AfterEachStep) {
+  Case one = capture();
+  one.steps = 160;
+  const Scene scene = read(one);
+  Simulation whole(scene, 1);
+  advance(whole, one.steps);
+  Simulation begin(scene, 1);
+  advance(begin, 90);
+  Entries entries = saved(begin);
+  for (std::int64_t step = 91; step <= one.steps; ++step) {
+    Simulation next = restored(scene, 1, entries);
+    advance(next, step);
+    entries = saved(next);
+  }
+  Simulation last = restored(scene, 1, entries);
+  expect_same(outcome_of(last), outcome_of(whole));
+  expect_same_summary(last.summary(), whole.summary());
+}
+
+TEST(Restart, WhatIsSavedComesBack) {
+  const Case one = capture();
+  const Scene scene = read(one);
+  Simulation simulation(scene, 1);
+  advance(simulation, 400);
+  const Entries entries = saved(simulation);
+  Simulation again = restored(scene, 2, entries);
+  EXPECT_EQ(saved(again), entries);
+}
+
+// ----------------------------------------------------------------------------------------------------
+// What is refused
+
+std::string refusal(const Scene& scene, const Entries& entries) {
+  try {
+    restored(scene, 1, entries);
+  } catch (const FileError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+TEST(Restart, RefusesWhatBelongsToAnotherCase) {
+  Simulation simulation(read(capture()), 1);
+  advance(simulation, 300);
+  const Entries entries = saved(simulation);
+  EXPECT_NE(refusal(read(edge_closure()), entries).find("memory: "), std::string::npos);
+  Scene other_step = read(capture());
+  other_step.time.step = 0.9e-6;
+  EXPECT_NE(refusal(other_step, entries).find("time_step is not the one"), std::string::npos);
+}
+
+template <class Value>
+std::vector<Value>& list(Entries& entries, const std::string& name) {
+  return std::get<std::vector<Value>>(entries.at(name));
+}
+
+TEST(Restart, RefusalsNameTheFieldAndWhatIsAllowed) {
+  const Scene scene = read(capture());
+  Simulation simulation(scene, 1);
+  advance(simulation, 300);
+  const Entries entries = saved(simulation);
+  const auto refused = [&](auto&& spoil) {
+    Entries spoilt = entries;
+    spoil(spoilt);
+    return refusal(scene, spoilt);
+  };
+  EXPECT_EQ(refused([](Entries& e) { e.erase("ledger/work"); }), "error: memory: ledger/work is missing");
+  EXPECT_EQ(refused([](Entries& e) { list<double>(e, "state/vx")[3] = std::nan(""); }),
+            "error: memory: state/vx holds what is no finite number");
+  EXPECT_EQ(refused([](Entries& e) { list<std::int64_t>(e, "rings/state")[0] = 3; }),
+            "error: memory: rings/state holds 3; allowed: 0 to 2");
+  EXPECT_EQ(refused([](Entries& e) { list<std::int64_t>(e, "phase")[0] = 0; }),
+            "error: memory: state/x has another length");
+  EXPECT_EQ(refused([](Entries& e) { list<std::int64_t>(e, "state/step")[0] = 7; }),
+            "error: memory: phase is not the one at that time");
+  EXPECT_NE(refused([](Entries& e) { list<std::int64_t>(e, "contacts/element").pop_back(); }), "");
+  EXPECT_NE(refused([](Entries& e) { list<std::int64_t>(e, "contacts/element")[0] = 0; }), "");
+  EXPECT_NE(refused([](Entries& e) { list<std::string>(e, "events/name").pop_back(); }), "");
+}
+
+TEST(Restart, RefusesRingsOutOfTheirOrderAlongTheThread) {
+  const Scene scene = read(sliding_capture());
+  Simulation simulation(scene, 1);
+  advance(simulation, 100);
+  Entries entries = saved(simulation);
+  std::vector<std::int64_t>& elements = list<std::int64_t>(entries, "joints/element");
+  ASSERT_GT(elements.size(), 2u);
+  elements[0] = elements.back();
+  if (elements[0] == elements[1]) elements[0] += 1;
+  EXPECT_NE(refusal(scene, entries), "");
+}
+
+// Numbers as a damaged or hostile file might hold them: each is refused, or the simulation that they give can
+// be stepped and looked at (it may stop with an error, but does not crash).
+template <class Random>
+void spoil(Entry& entry, Random& random) {
+  constexpr double strange[] = {0,
+                                -1,
+                                1e300,
+                                -1e300,
+                                1e-310,
+                                7,
+                                std::numeric_limits<double>::infinity(),
+                                std::numeric_limits<double>::quiet_NaN()};
+  constexpr std::int64_t whole[] = {0,
+                                    -1,
+                                    1,
+                                    2,
+                                    5,
+                                    1000,
+                                    std::numeric_limits<int>::max(),
+                                    std::numeric_limits<int>::min(),
+                                    std::numeric_limits<std::int64_t>::max(),
+                                    std::numeric_limits<std::int64_t>::min()};
+  const auto pick = [&](std::size_t count) {
+    return std::uniform_int_distribution<std::size_t>(0, count - 1)(random);
+  };
+  std::visit(
+      [&](auto& values) {
+        using Value = typename std::decay_t<decltype(values)>::value_type;
+        const std::size_t way = pick(8);
+        if (values.empty() || way == 0) values.push_back(Value{});
+        else if (way == 1) values.pop_back();
+        else if constexpr (std::is_same_v<Value, double>) values[pick(values.size())] = strange[pick(8)];
+        else if constexpr (std::is_same_v<Value, std::int64_t>) values[pick(values.size())] = whole[pick(10)];
+        else values[pick(values.size())] = std::string(1000, 'x');
+      },
+      entry);
+}
+
+void expect_survives(const Case& one, std::int64_t step, int rounds) {
+  const Scene scene = read(one);
+  Simulation simulation(scene, 1);
+  advance(simulation, step);
+  const Entries entries = saved(simulation);
+  std::mt19937 random(20261126);
+  int refused = 0, stopped = 0;
+  for (int round = 0; round < rounds; ++round) {
+    Entries spoilt = entries;
+    auto victim = spoilt.begin();
+    std::advance(victim, std::uniform_int_distribution<std::size_t>(0, spoilt.size() - 1)(random));
+    spoil(victim->second, random);
+    SCOPED_TRACE("spoilt: " + victim->first);
+    try {
+      Simulation next = restored(scene, round % 2 + 1, spoilt);
+      next.advance_to(next.step() + 3);
+      next.frame();
+      next.summary();
+    } catch (const FileError& error) {
+      EXPECT_NE(std::string(error.what()).find("error: memory: "), std::string::npos) << error.what();
+      ++refused;
+    } catch (const NumericalError&) {
+      ++stopped;
+    }
+  }
+  EXPECT_GT(refused, rounds / 8);
+  EXPECT_LT(refused + stopped, rounds);
+}
+
+TEST(Restart, StrangeNumbersDoNotCrash) {
+  expect_survives(capture(), 300, 150);
+  expect_survives(sliding_capture(), 300, 150);
+  expect_survives(ring_pull(), 200, 150);
+}
+
+}  // namespace
