@@ -103,7 +103,11 @@ TEST_F(Restarted, RunTimesAddUp) {
 
 TEST_F(Restarted, AfterTwoHundredKills) {
   std::mt19937 random(20261126);
-  std::uniform_int_distribution<int> life_us(0, 140'000);
+  const auto begun = std::chrono::steady_clock::now();
+  ASSERT_EQ(run(begin("0.001", "short")), 0) << err();
+  const std::chrono::duration<double> short_run = std::chrono::steady_clock::now() - begun;
+  std::uniform_real_distribution<double> lifetime(
+      0, 3 * short_run.count());  // s: before it starts up and long after
   const Words sets{"--quiet", "--set", "output.checkpoint_run_time_s=0.002"};
   Words first{"run",
               "tiny.toml",
@@ -122,7 +126,7 @@ TEST_F(Restarted, AfterTwoHundredKills) {
   for (int life = 0; life < 200; ++life) {
     const bool kept = fs::exists(path("r/checkpoint.h5"));
     const pid_t child = start(kept ? next : first);
-    std::this_thread::sleep_for(std::chrono::microseconds(life_us(random)));
+    std::this_thread::sleep_for(std::chrono::duration<double>(lifetime(random)));
     kill(child, SIGKILL);
     ASSERT_EQ(wait_for(child), 1000 + SIGKILL) << err();
     went_on += kept;
@@ -132,8 +136,8 @@ TEST_F(Restarted, AfterTwoHundredKills) {
       for (const cinch::Vec3& x : result.frame(k).position) ASSERT_TRUE(x.allFinite());
     frames = std::max(frames, result.frames());
   }
-  EXPECT_GT(went_on, 100);
-  EXPECT_GT(frames, 10) << "it got on from life to life";
+  EXPECT_GT(went_on, 50);
+  EXPECT_GT(frames, 3) << "it got on from life to life";
   const std::string end = "time.end_s=" + std::to_string(0.001 * frames + 0.0137);
   next.insert(next.end(), {"--set", end});
   ASSERT_EQ(run(next), 0) << err();

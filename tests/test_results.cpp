@@ -481,6 +481,32 @@ struct Hdf5 {
   }
 };
 
+// A kill while HDF5 splits a full node of an index could hide earlier frames: none is ever full.
+TEST(Results, OneIndexNodeHoldsAllChunks) {
+  const Scratch scratch;
+  const ResultModel model = small_model(300);
+  constexpr int frames = 3000;
+  {
+    Recorder recorder(scratch.path, model, {.frames = frames, .probe_rows = 3 * 100'000});
+    for (int k = 0; k < frames; ++k) {
+      for (int row = 0; row < 100; ++row) recorder.probes(k + 0.01 * row, probe_row(row));
+      recorder.frame(small_frame(model, k));
+    }
+  }
+  const Hdf5 file(scratch.path / "run.vtkhdf");
+  for (const char* name :
+       {"/VTKHDF/Points", "/VTKHDF/CellData/tension", "/VTKHDF/CellData/active", "/cinch/rings/center",
+        "/cinch/step", "/cinch/energy/kinetic", "/cinch/probes/values"}) {
+    const hid_t set = H5Dopen2(file.file, name, H5P_DEFAULT), space = H5Dget_space(set);
+    hsize_t chunks = 0;
+    EXPECT_GE(H5Dget_num_chunks(set, space, &chunks), 0) << name;
+    H5Sclose(space);
+    H5Dclose(set);
+    EXPECT_GT(chunks, 0u) << name;
+    EXPECT_LE(chunks, 64u) << name;
+  }
+}
+
 TEST(Results, VtkAttributes) {
   const Scratch scratch;
   record(scratch.path, small_model(5), 3);

@@ -84,7 +84,8 @@ struct Frame {
 
 struct Event {
   double time = 0;
-  std::string kind;  ///< ring_contact, target_contact, separation, mouth_closed, target_enclosed
+  std::string kind;  ///< ring_contact, target_contact, separation, mouth_closed, target_enclosed,
+                     ///< thread_left
   std::string name;  ///< of the ring, target, mechanism or mouth
 };
 

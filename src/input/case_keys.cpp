@@ -237,6 +237,15 @@ const Section<Contact>& contact_section() {
                        "Sec. 4.1).",
             .source = "the paper's rule doubles the force at nodes"},
            into(&Contact::shared_node)},
+          {{.name = "leaving",
+            .type = choice,
+            .words = {"stop", "event"},
+            .fallback = "\"stop\"",
+            .meaning =
+                "What a thread does that leaves a ring through which it passed: it stops the run, or is "
+                "noted among the events. Looked for at samples of probes.",
+            .source = "a thread out of its ring closes nothing"},
+           into(&Contact::leaving)},
           {{.name = "margin_m",
             .unit = "m",
             .range = from(0, 1e3),

@@ -122,6 +122,7 @@ void ContactList::rebuild(const Model& model, State& state) {
   pairs.clear();
   find_ring_pairs(model, state);
   find_ball_pairs(model, state);
+  find_longest_approach();
   for (std::size_t b = 0; b < model.balls.size(); ++b)
     begin_tallies(state.balls[b], at(ball_begin[b + 1] - ball_begin[b]));
 }
@@ -143,6 +144,13 @@ void ContactList::transfer(Archive& archive, const Model& model) {
   for (std::size_t b = 0; b < model.balls.size(); ++b)
     for (Index i = ball_begin[b]; i < ball_begin[b + 1]; ++i)
       pairs.push_back(restored_with_ball(archive, model, touching[at(i)], b));
+  find_longest_approach();
+}
+
+void ContactList::find_longest_approach() {
+  longest_approach_ = std::numeric_limits<double>::infinity();
+  for (const kernel::Pair& pair : pairs)
+    longest_approach_ = std::min(longest_approach_, jump_share * pair.contact_distance);
 }
 
 // Rings' pairs first, then those of the balls, without gaps.

@@ -2,12 +2,19 @@
 // is used up. In the user's numbers; each thread takes from it what concerns its own nodes.
 #pragma once
 #include <cstdint>
+#include <limits>
 #include <vector>
 
 #include "base/archive.hpp"
 #include "plan/broadphase.hpp"
 
 namespace cinch {
+
+/// Share of the contact distance by which a thread may approach a wire within a step. Together with the depth
+/// of pressed_share (health.hpp) none gets through unnoticed: what goes from one side of the wire's middle to
+/// the other is seen at one step at least within 1 - pressed_share of it, as jump_share < 2 (1 -
+/// pressed_share).
+inline constexpr double jump_share = 0.5;
 
 class ContactList {
  public:
@@ -22,6 +29,8 @@ class ContactList {
   void transfer(Archive& archive, const Model& model);
 
   double margin() const { return margin_; }
+  /// No pair that approaches by less within a step can pass through each other unnoticed, m.
+  double longest_approach() const { return longest_approach_; }
   std::int64_t rebuilds() const { return rebuilds_; }
   std::int64_t pairs_tested() const { return pairs_tested_; }
   std::size_t memory() const;  ///< bytes, see memory.hpp
@@ -35,7 +44,10 @@ class ContactList {
   void find_ring_pairs(const Model& model, const State& state);
   void find_ball_pairs(const Model& model, const State& state);
 
+  void find_longest_approach();
+
   double margin_;
+  double longest_approach_ = std::numeric_limits<double>::infinity();
   std::vector<BoxTree> trees_;  ///< contact set
   std::vector<Index> found_;
   std::int64_t rebuilds_ = 0, pairs_tested_ = 0;

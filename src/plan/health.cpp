@@ -28,7 +28,7 @@ Fastest fastest_node(const Model& model, const State& state) {
 
 void check_energy(const Preparation& preparation, const Model& model, const State& state, double residual,
                   double scale, double limit) {
-  constexpr double least = 1e-12;  // J: rounding in a scene without energy
+  constexpr double least = 1e-12;                           // J: rounding in a scene without energy
   if (std::abs(residual) <= limit * scale + least) return;  // not so for what is no number
   const Fastest fastest = fastest_node(model, state);
   const auto i = at(fastest.node);
@@ -46,27 +46,89 @@ void check_energy(const Preparation& preparation, const Model& model, const Stat
   throw NumericalError(text);
 }
 
-void check_contacts(const Preparation& preparation, const State& state) {
-  const auto check = [&](const char* kind, const std::string& name, const auto& tally) {
-    if (!(tally.stiffest > 1)) return;
-    const Index stiffest = tally.stiffest_element;
-    const std::string what = stiffest < 0 ? node_label(preparation.assembly, kernel::sphere_label(stiffest))
-                                          : element_label(preparation, stiffest);
-    char text[500];
-    std::snprintf(
-        text, sizeof text,
-        "error: at t = %.9g s the contact of %s with %s '%s' needed %.3g times what the stable step leaves; "
-        "likely cause: an impact too hard for the time step %.3g s (or an overlap at the start); a step of "
-        "%.2g s would carry it",
-        tally.stiffest_time, what.c_str(), kind, name.c_str(), tally.stiffest, preparation.dt,
-        preparation.dt / tally.stiffest * 0.9);
-    throw NumericalError(text);
-  };
-  for (std::size_t r = 0; r < state.rings.size(); ++r)
-    check("ring", preparation.assembly.rings[r].name, state.rings[r]);
+namespace {
+
+std::string touching(const Preparation& preparation, Index element) {
+  return element < 0 ? node_label(preparation.assembly, kernel::sphere_label(element))
+                     : element_label(preparation, element);
+}
+
+template <class Tally>
+void check_stiffness(const Preparation& preparation, const std::string& with, const Tally& tally) {
+  if (!(tally.stiffest > 1)) return;
+  char text[500];
+  std::snprintf(
+      text, sizeof text,
+      "error: at t = %.9g s the contact of %s with %s needed %.3g times what the stable step leaves; "
+      "likely cause: an impact too hard for the time step %.3g s (or an overlap at the start); a step of "
+      "%.2g s would carry it",
+      tally.stiffest_time, touching(preparation, tally.stiffest_element).c_str(), with.c_str(),
+      tally.stiffest, preparation.dt, preparation.dt / tally.stiffest * 0.9);
+  throw NumericalError(text);
+}
+
+// `distance`: at which the thinnest of what touches would be through.
+template <class Tally>
+void check_depth(const Preparation& preparation, const State& state, const std::string& with,
+                 const Tally& tally, double distance) {
+  if (!(tally.max_penetration > pressed_share * distance)) return;
+  char text[500];
+  std::snprintf(
+      text, sizeof text,
+      "error: at t = %.9g s %s (or a neighbour) is pressed %.3g m into %s, of the %.3g m at which it "
+      "would be through; likely cause: a contact too soft for the pull, or a time step too long for "
+      "an impact (%.3g s)",
+      static_cast<double>(state.step) * preparation.dt, touching(preparation, tally.stiffest_element).c_str(),
+      tally.max_penetration, with.c_str(), distance, preparation.dt);
+  throw NumericalError(text);
+}
+
+}  // namespace
+
+void check_contacts(const Preparation& preparation, const Model& model, const State& state) {
+  for (std::size_t r = 0; r < state.rings.size(); ++r) {
+    if (model.slides(r)) continue;
+    const std::string name = "ring '" + preparation.assembly.rings[r].name + "'";
+    check_stiffness(preparation, name, state.rings[r]);
+    check_depth(preparation, state, name, state.rings[r],
+                model.ring_wire_radius[r] + model.contact_sets[at(model.ring_set[r])].thinnest);
+  }
   for (std::size_t b = 0; b < state.balls.size(); ++b)
-    for (const kernel::BallTally& tally : state.balls[b])
-      check("target", preparation.assembly.balls[b].name, tally);
+    for (const kernel::BallTally& tally : state.balls[b]) {
+      const std::string name = "target '" + preparation.assembly.balls[b].name + "'";
+      check_stiffness(preparation, name, tally);
+      check_depth(preparation, state, name, tally, model.balls[b].radius);
+    }
+}
+
+void report_jump(const Preparation& preparation, const State& state, const Jump& jump) {
+  const auto with = at(jump.pair.with);
+  const std::string name = jump.ring ? "ring '" + preparation.assembly.rings[with].name + "'"
+                                     : "target '" + preparation.assembly.balls[with].name + "'";
+  const double allowed = jump_share * jump.pair.contact_distance;
+  char text[600];
+  std::snprintf(
+      text, sizeof text,
+      "error: at t = %.9g s %s comes towards %s by %.3g m in one step, too far to see it touch (allowed: "
+      "%.3g m); likely cause: the time step %.3g s is too long for %.3g m/s; a step of %.2g s would do",
+      static_cast<double>(state.step) * preparation.dt, touching(preparation, jump.pair.element).c_str(),
+      name.c_str(), jump.motion, allowed, preparation.dt, jump.motion / preparation.dt,
+      0.9 * allowed / jump.motion * preparation.dt);
+  throw NumericalError(text);
+}
+
+void report_loss(const Preparation& preparation, const Look& now, const ThreadingWatch::Loss& loss) {
+  const Vec3 place = now.ring_center(loss.ring);
+  char text[600];
+  std::snprintf(
+      text, sizeof text,
+      "error: at t = %.9g s %s has left ring '%s' at (%.6g, %.6g, %.6g) m: it passed through it %d time(s), "
+      "now %d; likely cause: an end was drawn through the opening, or the thread through the wire (a "
+      "contact too soft, a time step too long); contact.leaving = \"event\" goes on",
+      now.time(), preparation.assembly.parts[at(loss.part)].reference().c_str(),
+      preparation.assembly.rings[at(loss.ring)].name.c_str(), place.x(), place.y(), place.z(), loss.before,
+      loss.now);
+  throw NumericalError(text);
 }
 
 bool speeds_allowed(const State& state, double speed_limit) {

@@ -73,6 +73,7 @@ void Simulation::transfer_watch(Archive& archive) {
   archive.values("watch/enclosed", std::span(enclosed));
   enclosed_.assign(enclosed.begin(), enclosed.end());
   transfer_events(archive, events_);
+  threadings_.transfer(archive, preparation_.assembly, model().elements);
 }
 
 // Of all stages since the beginning, whoever stepped.

@@ -137,6 +137,7 @@ void Simulation::start() {
   remember();
   ledger_.open(begin, m, state_, work);
   ring_start_ = look().ring_centers();
+  threadings_.begin(look_);
   if (needs_node_start(scene_)) node_start_ = look_.positions();
   // rings along one straight edge are no mouth: their hull has next to no area
   const double spread = mouth_spread(ring_start_);
@@ -169,6 +170,7 @@ void Simulation::close() {
   const Energies separated = look().energy();
   ledger_.book_closing(before, after, laid, separated, state_, before_model, model());
   remember();
+  threadings_.begin(look());
   ledger_.book_supports(
       {held.linear - free.linear, Vec3::Zero()});  // the angular part is in book_closing's difference
   for (const Mechanism& mechanism : scene_.mechanisms)
@@ -188,7 +190,8 @@ void Simulation::advance_to(std::int64_t target) {
 
 void Simulation::check_health() {
   if (!scene_.time.allow_unstable)
-    check_contacts(preparation_, state_);  // first: an impact too hard is what makes a node run away
+    check_contacts(preparation_, model(), state_);  // first: an impact too hard is what makes a node run away
+  if (stepper_->jump()) report_jump(preparation_, state_, *stepper_->jump());
   if (!stepper_->healthy()) report_runaway(preparation_, model(), state_, scene_.time.speed_limit);
   if (!speeds_allowed(state_, scene_.time.speed_limit)) find_fault();
   if (state_.step - sound_.step >= health_interval(model().nodes)) remember();
@@ -217,6 +220,7 @@ const Look& Simulation::look() {
 
 Frame Simulation::frame(const Look& now) {
   const Index nodes = preparation_.assembly.node_count(), elements = preparation_.whole().elements;
+  if (state_.step > sound_.step) remember();  // a run that fails later goes back no further
   Frame out;
   out.time = now.time();
   out.step = now.step();
@@ -251,7 +255,19 @@ std::vector<double> Simulation::probe_row(const Look& now) {
   return probe_values(scene_, now, ledger_.energies(now.energy()), node_start_, ring_start_);
 }
 
+// All that have been lost are noted before one stops the run.
+void Simulation::note_losses(const Look& now) {
+  const std::vector<ThreadingWatch::Loss> losses = threadings_.losses(now);
+  for (const ThreadingWatch::Loss& loss : losses)
+    events_.push_back({now.time(), "thread_left",
+                       preparation_.assembly.rings[at(loss.ring)].name + ": " +
+                           preparation_.assembly.parts[at(loss.part)].reference()});
+  if (!losses.empty() && scene_.contact.leaving == Leaving::stop)
+    report_loss(preparation_, now, losses.front());
+}
+
 void Simulation::note_events(const Look& now) {
+  if (!threadings_.empty()) note_losses(now);
   if (!has_mouth_ || preparation_.closing_step < 0) return;
   const double area = mouth_area(now.ring_centers());
   greatest_mouth_ = std::max(greatest_mouth_, area);

@@ -7,6 +7,7 @@
 #include "plan/ledger.hpp"
 #include "plan/memory.hpp"
 #include "plan/preparation.hpp"
+#include "plan/threading_watch.hpp"
 #include "scene/mouth.hpp"
 
 namespace cinch {
@@ -38,7 +39,8 @@ class Simulation {
   void check_energy(const Look& now);
   /// One value for each column of `probe_columns`.
   std::vector<double> probe_row(const Look& now);
-  /// Looks at the mouth and at targets and notes events; call as often as events should be resolved.
+  /// Looks at the mouth, at targets and at threads in rings, and notes events; call as often as events should
+  /// be resolved. Throws NumericalError for a thread that has left its ring, unless the case allows it.
   void note_events(const Look& now);
 
   const std::vector<ResultModel::ProbeColumn>& probe_columns() const { return probe_columns_; }
@@ -72,6 +74,7 @@ class Simulation {
   void enter_phase(std::size_t phase);
   void close();
   void check_health();
+  void note_losses(const Look& now);
   void remember();
   [[noreturn]] void find_fault();
   std::vector<Event> all_events() const;
@@ -93,6 +96,7 @@ class Simulation {
   double greatest_mouth_ = 0;
   bool has_mouth_ = false, mouth_closed_ = false;
   std::vector<bool> enclosed_;
+  ThreadingWatch threadings_;
   std::vector<Event> events_;  ///< those noted here; contacts are kept in the tallies
 };
 

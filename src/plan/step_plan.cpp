@@ -23,6 +23,7 @@ StepPlan plan_steps(const Scene& scene, const Model& model, double dt) {
   plan.alpha_target = scene.contact.alpha_target;
   plan.margin = scene.contact.margin;
   plan.speed_limit = scene.time.speed_limit;
+  plan.allow_unstable = scene.time.allow_unstable;
   plan.gravity_acceleration = model.gravity;
   return plan;
 }

@@ -22,9 +22,10 @@ struct StepPlan {
   double dt = 0;  ///< s
   bool damped = false, ledger = false, gravity = false, rings = false, balls = false, joints = false;
   bool couple = true, golden = false;
-  double alpha_ring = 0, alpha_target = 0;   ///< s/m
-  double margin = 0;                         ///< m, 0: automatic
-  double speed_limit = 0;                    ///< m/s
+  double alpha_ring = 0, alpha_target = 0;  ///< s/m
+  double margin = 0;                        ///< m, 0: automatic
+  double speed_limit = 0;                   ///< m/s
+  bool allow_unstable = false;
   Vec3 gravity_acceleration = Vec3::Zero();  ///< m/s^2
 
   /// Only scenes in which something acts on nodes beside their elements go step by step and watch the

@@ -61,6 +61,7 @@ void Stepper::share_out(State& state) {
 void Stepper::start_over() {
   contacts_valid_ = false;
   healthy_ = true;
+  jump_.reset();
   for (const auto& piece : pieces_) piece->forget_dampers();
 }
 
@@ -125,8 +126,10 @@ void Stepper::renew_contacts(State& state) {
 
 void Stepper::judge(double greatest, Progress& p) const {
   // two items approach each other by at most twice the greatest speed
-  p.motion += 2 * plan_.dt * std::sqrt(greatest);
+  const double approach = 2 * plan_.dt * std::sqrt(greatest);
+  p.motion += approach;
   if (!(p.motion < contacts_.margin())) p.verdict = Verdict::renew_contacts;
+  if (approach > contacts_.longest_approach()) p.verdict = Verdict::look_closer;
   if (greatest > plan_.speed_limit * plan_.speed_limit) p.verdict = Verdict::unhealthy;
 }
 
@@ -188,8 +191,16 @@ void Stepper::advance(State& state, std::int64_t steps) {
     windows_ = reached.windows;
     motion_ = reached.motion;
     if (reached.verdict == Verdict::unhealthy) healthy_ = false;
-    if (reached.verdict == Verdict::renew_contacts) contacts_valid_ = false;
+    if (reached.verdict == Verdict::look_closer) look_closer(state);
+    if (!(motion_ < contacts_.margin())) contacts_valid_ = false;
   }
+}
+
+// Some node moves fast: whether one near a ring or ball does.
+void Stepper::look_closer(const State& state) {
+  if (plan_.allow_unstable) return;
+  jump_ = find_jump(*model_, state, contacts_, plan_.dt);
+  if (jump_) healthy_ = false;
 }
 
 StageSeconds Stepper::seconds() const {

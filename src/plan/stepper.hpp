@@ -16,6 +16,7 @@
 
 #include "plan/contact_list.hpp"
 #include "plan/exchange.hpp"
+#include "plan/jumps.hpp"
 
 namespace cinch {
 
@@ -39,8 +40,9 @@ class Stepper {
   /// force that they feel now.
   void glance(State& state, Glance& out);
 
-  /// False once a node's speed was above the limit.
+  /// False once a node's speed was above the limit, or the step too long for a contact: see jump().
   bool healthy() const { return healthy_; }
+  const std::optional<Jump>& jump() const { return jump_; }
   /// Seconds of each stage so far; steps are shared out as sampled ones are.
   StageSeconds seconds() const;
 
@@ -51,7 +53,7 @@ class Stepper {
   std::size_t memory_of_pieces() const;  ///< bytes, see memory.hpp
 
  private:
-  enum class Verdict { go_on, renew_contacts, unhealthy };
+  enum class Verdict { go_on, renew_contacts, look_closer, unhealthy };
   struct Progress {
     std::int64_t done, windows;  ///< steps of this run; stretches between two meetings since the beginning
     double motion;               ///< m, of the margin, since the list of pairs was made
@@ -66,6 +68,7 @@ class Stepper {
   void hand_out_dampers();
   bool gather_dampers();
   void transfer_dampers(Archive& archive);
+  void look_closer(const State& state);
   void judge(double greatest, Progress& progress) const;
   Progress run(State& state, std::int64_t steps);
   Progress run_thread(State& state, std::int64_t steps, int thread, Progress from);
@@ -82,6 +85,7 @@ class Stepper {
   double motion_ = 0;
   AlignedVector<double> dampers_;  ///< element: restored, and not yet handed to the pieces
   bool contacts_valid_ = false, healthy_ = true;
+  std::optional<Jump> jump_;
   std::int64_t windows_ = 0;
   StageSeconds sampled_{};            ///< of the steps that were timed
   double stepping_ = 0, search_ = 0;  ///< s: all steps; broadphase

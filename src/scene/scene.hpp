@@ -166,12 +166,15 @@ enum class RingCouple {
 enum class DistanceMethod { exact, golden };  ///< closest point of segment and circle
 enum class SharedNode { once, paper };  ///< a contact at a node shared by elements: counted once, or by each
 
+enum class Leaving { stop, event };  ///< a thread that leaves a ring that it passed through
+
 struct Contact {
   double alpha_ring = 0.05;    ///< alpha of eq. (9) for thread and ring, s/m
   double alpha_target = 0.05;  ///< ... for element and target, s/m
   RingCouple couple = RingCouple::conserving;
   DistanceMethod distance = DistanceMethod::exact;
   SharedNode shared_node = SharedNode::once;
+  Leaving leaving = Leaving::stop;
   double margin = 0;  ///< broadphase margin, m; 0: chosen from the element lengths
 };
 

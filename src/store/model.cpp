@@ -56,6 +56,7 @@ ContactSet make_set(const Model& model, const Assembly& assembly, const std::vec
     if (!wanted[at(assembly.elements[at(e)].part)]) continue;
     set.elements.push_back(e);
     set.thickest = std::max(set.thickest, model.radius[at(e)]);
+    set.thinnest = std::min(set.thinnest, model.radius[at(e)]);
     ++degree[at(model.end_a[at(e)])];
     ++degree[at(model.end_b[at(e)])];
   }

@@ -19,6 +19,7 @@ struct ContactSet {
   std::vector<Index> parts;      // parts of the assembly: what makes two sets the same
   std::vector<Index> elements;   // ascending
   double thickest = 0;           // greatest thread radius                                m
+  double thinnest = 1e300;       // least thread radius                                   m
   std::vector<double> weight_a;  // (degree - 1) / degree of end a within the set         -      elements
   std::vector<double> weight_b;  // ... of end b                                          -      elements
 };

@@ -1,0 +1,60 @@
+#include "plan/threading_watch.hpp"
+
+namespace cinch {
+namespace {
+
+constexpr std::size_t at(Index i) { return static_cast<std::size_t>(i); }
+
+Index times_through(const Look& now, Index ring, const Part& thread) {
+  const Vec3 center = now.ring_center(ring), normal = now.ring_normal(ring);
+  const double radius = now.assembly().rings[at(ring)].radius;
+  Index times = 0;
+  Vec3 a = now.position(thread.nodes.front()) - center;
+  for (std::size_t k = 1; k < thread.nodes.size(); ++k) {
+    const Vec3 b = now.position(thread.nodes[k]) - center;
+    const double axial_a = normal.dot(a), axial_b = normal.dot(b);
+    if ((axial_a < 0) != (axial_b < 0)) {
+      const double t = axial_a / (axial_a - axial_b);
+      if (((1 - t) * a + t * b).norm() < radius) times += axial_a < 0 ? 1 : -1;
+    }
+    a = b;
+  }
+  return times;
+}
+
+}  // namespace
+
+void ThreadingWatch::begin(const Look& now) {
+  const Assembly& assembly = now.assembly();
+  for (Index r = 0; r < static_cast<Index>(assembly.rings.size()); ++r)
+    for (const Index p : assembly.rings[at(r)].parts) {
+      const Part& part = assembly.parts[at(p)];
+      const bool fresh = now.present(part.first_element) && part.first_element >= elements_;
+      if (part.kind != PartKind::thread || !fresh) continue;
+      if (const Index times = times_through(now, r, part); times != 0) watched_.push_back({r, p, times});
+    }
+  elements_ = now.model().elements;
+}
+
+std::vector<ThreadingWatch::Loss> ThreadingWatch::losses(const Look& now) {
+  std::vector<Loss> lost;
+  std::erase_if(watched_, [&](const Watched& item) {
+    const Index times = times_through(now, item.ring, now.assembly().parts[at(item.part)]);
+    if (times == item.times) return false;
+    lost.push_back({item.ring, item.part, item.times, times});
+    return true;
+  });
+  return lost;
+}
+
+void ThreadingWatch::transfer(Archive& archive, const Assembly& assembly, Index elements) {
+  elements_ = elements;
+  watched_.resize(archive.length("threadings/ring", watched_.size()));
+  archive.column("threadings/ring", watched_, &Watched::ring, 0,
+                 static_cast<std::int64_t>(assembly.rings.size()) - 1);
+  archive.column("threadings/thread", watched_, &Watched::part, 0,
+                 static_cast<std::int64_t>(assembly.parts.size()) - 1);
+  archive.column("threadings/times", watched_, &Watched::times, -1000000, 1000000);
+}
+
+}  // namespace cinch

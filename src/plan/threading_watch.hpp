@@ -1,0 +1,37 @@
+// Watches that threads stay in the rings that they pass through by contact.
+//
+// A thread passes a ring as often as its centre line goes through the disc inside the wire's centre line: to
+// the one side counts 1, to the other -1. Bends of the thread change nothing in the sum; what does is an end
+// drawn through the opening, or a thread that has gone through the wire.
+#pragma once
+#include <vector>
+
+#include "plan/look.hpp"
+
+namespace cinch {
+
+class ThreadingWatch {
+ public:
+  /// A thread that passes through a ring no longer as it did when it was first looked at.
+  struct Loss {
+    Index ring, part;
+    Index before, now;  ///< times through
+  };
+
+  /// Also watches, from now on, the threads that pass through a ring in this look and were not there before.
+  void begin(const Look& now);
+  /// Those lost since the last call; they are watched no more.
+  std::vector<Loss> losses(const Look& now);
+  bool empty() const { return watched_.empty(); }
+  /// `elements`: those of the scene now.
+  void transfer(Archive& archive, const Assembly& assembly, Index elements);
+
+ private:
+  struct Watched {
+    Index ring, part, times;
+  };
+  std::vector<Watched> watched_;
+  Index elements_ = 0;  ///< of the scene, when it was last looked at for threads
+};
+
+}  // namespace cinch
