@@ -146,4 +146,99 @@ TEST(Health, TheEnergyLimitIsTheCases) {
   EXPECT_EQ(energy_fault(scene), "");
 }
 
+// ---- contacts that hold or take less than nothing
+
+// A net of 3 x 3 knots that lies flat in the wall of a ball so large that all of it sinks in alike.
+Scene sunken_net() {
+  return scene_of(R"(schema = 1
+[time]
+end_s = 1
+[material.m]
+youngs_modulus_Pa = 1e9
+density_kg_m3 = 970
+[net.main]
+material = "m"
+diameter_m = 0.002
+size_m = [0.2, 0.2]
+mesh_m = 0.1
+elements_per_side = 4
+center_m = [0, 0, 1000]
+[target.wall]
+center_m = [0, 0, 0]
+radius_m = 1000
+youngs_modulus_Pa = 1e3
+)");
+}
+
+std::string contact_fault(const Scene& scene) {
+  Simulation sim(scene, 1);
+  try {
+    sim.advance_to(1);
+    sim.check_energy(sim.look());
+  } catch (const NumericalError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+double contact_energy(SharedNode rule) {
+  Scene scene = sunken_net();
+  scene.contact.shared_node = rule;
+  return Simulation(scene, 1).look().energy().contact;
+}
+
+// Of 48 elements, the 36 nodes between two take one contact each, the 9 knots 4 x 1 + 4 x 2 + 3.
+TEST(Health, ANetThatSinksInAsAWholeHoldsLessThanNothing) {
+  // depths differ by 1 %
+  EXPECT_NEAR(contact_energy(SharedNode::once) / contact_energy(SharedNode::paper), (48 - 36 - 15) / 48.0,
+              2e-3);
+}
+
+TEST(Health, ContactsThatHoldLessThanNothingStopTheRun) {
+  const std::string fault = contact_fault(sunken_net());
+  for (const char* piece : {"at t = ", "the contacts with target 'wall' hold -", "less than nothing: -",
+                            "(time.residual_limit = 0.05)", "first of all element ", "of net.main (nodes ",
+                            "contact.shared_node"})
+    EXPECT_NE(fault.find(piece), std::string::npos) << piece << " in: " << fault;
+}
+
+TEST(Health, ContactsThatEachElementCountsHoldSomething) {
+  Scene scene = sunken_net();
+  scene.contact.shared_node = SharedNode::paper;
+  EXPECT_EQ(contact_fault(scene), "");
+}
+
+TEST(Health, TheLimitOfContactEnergyIsTheCases) {
+  Scene scene = sunken_net();
+  scene.time.residual_limit = 1e6;
+  EXPECT_EQ(contact_fault(scene), "");
+}
+
+TEST(Health, ASceneWithoutEnergyIsNotWarnedOfItsRounding) {
+  Scene scene = scene_of(R"(schema = 1
+[time]
+end_s = 1
+[material.m]
+youngs_modulus_Pa = 1e9
+density_kg_m3 = 970
+[thread.main]
+material = "m"
+diameter_m = 0.002
+elements = 20
+points_m = [[-0.05, 0, -0.007], [0.05, 0, -0.007]]
+[ring.r]
+diameter_m = 0.02
+wire_diameter_m = 0.004
+mass_kg = 0.006
+youngs_modulus_Pa = 70e9
+center_m = [0, 0, 0]
+normal = [1, 0, 0]
+)");
+  Simulation sim(scene, 1);
+  sim.advance_to(10000);
+  const Summary summary = sim.summary();
+  EXPECT_GT(summary.relative_residual, 0.01) << "the thread just touches the wire";
+  EXPECT_TRUE(summary.warnings.empty()) << summary.warnings.front();
+}
+
 }  // namespace

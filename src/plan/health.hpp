@@ -6,6 +6,9 @@
 
 namespace cinch {
 
+/// Energies below are rounding, J: in a scene that has next to none, shares say nothing.
+inline constexpr double least_energy = 1e-12;
+
 /// Throws NumericalError when a contact has needed more than the elements leave of the stable step: it would
 /// grow without bound; and for one that is about to be pressed through what it touches.
 void check_contacts(const Preparation& preparation, const Model& model, const State& state);
@@ -14,6 +17,11 @@ void check_contacts(const Preparation& preparation, const Model& model, const St
 /// (J).
 void check_energy(const Preparation& preparation, const Model& model, const State& state, double residual,
                   double scale, double limit);
+
+/// Throws NumericalError when the contacts of a ring or target hold less than nothing, or when their damping
+/// has given energy in place of taking it: more than `limit` times `scale` (J). The residual shows neither,
+/// as both are booked.
+void check_contact_energy(const Preparation& preparation, const State& state, double scale, double limit);
 
 /// A contact deeper than this share of its distance is as good as through the wire.
 inline constexpr double pressed_share = 0.7;

@@ -247,8 +247,9 @@ Frame Simulation::frame(const Look& now) {
 
 void Simulation::check_energy(const Look& now) {
   if (!scene_.output.ledger || scene_.time.allow_unstable) return;
-  const double residual = ledger_.energies(now.energy()).residual;
-  cinch::check_energy(preparation_, model(), state_, residual, ledger_.scale(), scene_.time.residual_limit);
+  const double limit = scene_.time.residual_limit, residual = ledger_.energies(now.energy()).residual;
+  check_contact_energy(preparation_, state_, ledger_.scale(), limit);  // first: it knows the cause
+  cinch::check_energy(preparation_, model(), state_, residual, ledger_.scale(), limit);
 }
 
 std::vector<double> Simulation::probe_row(const Look& now) {

@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "base/version.hpp"
+#include "plan/health.hpp"
 #include "plan/simulation.hpp"
 #include "store/fields.hpp"
 
@@ -80,7 +81,7 @@ Summary Simulation::summary() {
   s.energy_initial = ledger_.initial();
   if (!scene_.output.ledger) s.energy.residual = std::numeric_limits<double>::quiet_NaN();  // books not kept
   s.relative_residual = ledger_.scale() > 0 ? std::abs(s.energy.residual) / ledger_.scale() : 0;
-  if (s.relative_residual > residual_limit)
+  if (s.relative_residual > residual_limit && std::abs(s.energy.residual) > least_energy)
     s.warnings.push_back(
         "energy is not conserved (residual above 1 %); a smaller time.step_s or more damping may help");
   const Momentum drift = ledger_.drift(model(), state_, time());
