@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
 """Draws a stored run and the history as one HTML page that needs no network and no server:
 
-    bench/dashboard.py RUN [--history FILE] [--instructions FILE] [--study FILE] [--out FILE]
+    bench/dashboard.py RUN [--history FILE] [--instructions FILE] [--study FILE]
+                       [--stability FILE] [--out FILE]
 
 The page's style is that of `cinch report`; numbers, captions and tables are written here, dashboard.js draws.
 """
@@ -15,7 +16,7 @@ from typing import Any, Sequence
 
 import history
 from command_line import BadInput, Parser, run_main
-from page import cases, over_time, parts, precision, scaling
+from page import cases, over_time, parts, precision, scaling, stability
 from page.figure import Cell, Chart, Figure, Row
 from paper_times import MACHINE
 from stored_run import Run, parse_json, read_run, read_text
@@ -27,11 +28,12 @@ CHART_JS = Path("/usr/share/javascript/chart.js/chart.min.js")  # Debian's libjs
 
 
 def sections(run: Run, instructions: parts.Instructions, counted_on: str,
-             study: list[precision.Problem]) -> list[tuple[str, list[Figure]]]:
+             study: list[precision.Problem], matrix: stability.Matrix | None) -> list[tuple[str, list[Figure]]]:
     """All figures of one run, in the order of the page."""
     return [
         ("Cases", [cases.run_time(run), cases.stages(run)]),
         ("Error against run time", precision.figures(study)),
+        ("Stability", stability.figures(matrix)),
         ("Threads", [scaling.speed_up(run), scaling.efficiency(run), scaling.hand_over(run), scaling.triad(run)]),
         ("Growth", [scaling.growth(run), scaling.triad_share(run)]),
         ("Parts of a step", [parts.element(run), parts.absent(run, instructions, counted_on), parts.kernels(run)]),
@@ -170,11 +172,11 @@ def as_json(element_id: str, data: Any) -> str:
 
 
 def render(run: Run, records: list[history.Record], instructions: parts.Instructions, counted_on: str,
-           chart_js: str, study: Sequence[precision.Problem] = ()) -> str:
+           chart_js: str, study: Sequence[precision.Problem] = (), matrix: stability.Matrix | None = None) -> str:
     """The whole page."""
     body = lead(run)
     figures: list[Figure] = []
-    for heading, group in sections(run, instructions, counted_on, list(study)):
+    for heading, group in sections(run, instructions, counted_on, list(study), matrix):
         drawn = "".join(figure_html(figure, index) for index, figure in enumerate(group, len(figures)))
         body += tag("h2", heading) + tag("div", drawn, "plots")
         figures += group
@@ -212,6 +214,7 @@ def main() -> int:
     parser.add_argument("--history", type=Path, help="history.jsonl")
     parser.add_argument("--instructions", type=Path, help="instruction counts of absent features, JSON")
     parser.add_argument("--study", type=Path, help="study.json of bench/study")
+    parser.add_argument("--stability", type=Path, help="stability.json of bench/stability")
     parser.add_argument("--out", type=Path, default=Path("dashboard.html"), help="page to write")
     parser.add_argument("--chart-js", type=Path, default=CHART_JS, help="Chart.js 3 (default: Debian's libjs-chart.js)")
     given = parser.parse_args()
@@ -220,7 +223,7 @@ def main() -> int:
     instructions, counted_on = read_instructions(given.instructions)
     records = history.read(given.history) if given.history else []
     text = render(read_run(given.run), records, instructions, counted_on, read_text(given.chart_js),
-                  precision.read_study(given.study))
+                  precision.read_study(given.study), stability.read_stability(given.stability))
     given.out.write_text(text, encoding="utf-8")
     print(f"dashboard: {given.out}")
     return 0

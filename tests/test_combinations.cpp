@@ -13,6 +13,7 @@
 #include "base/error.hpp"
 #include "input/case_reader.hpp"
 #include "plan/simulation.hpp"
+#include "store/fields.hpp"
 
 namespace cinch {
 namespace {
@@ -115,6 +116,39 @@ end = { mass_kg = 0.1, support = "guided", axis = [0, 1, 0] }
   EXPECT_EQ(moved.z(), 0);
   EXPECT_LT(run.summary().linear_momentum_drift, 1e-12);  // what the supports took is booked
   EXPECT_LT(run.summary().relative_residual, 1e-3);
+}
+
+// Rounded to steps it would be none, but the scene has a phase before it.
+TEST(Combinations, AClosingTimeOfLessThanHalfAStepIsTheFirstStep) {
+  const auto run = [](const std::string& time) {
+    Simulation simulation(parse_case(material + net + R"([mechanism.m]
+corner = "net.main.top_right"
+launcher_mass_kg = 0.05
+split_mass_kg = 0.1
+towing_material = "t"
+towing_diameter_m = 0.002
+launch_speed_m_s = 1
+separation_a_m_s = [-2, 1, 0]
+separation_b_m_s = [2, -1, 0]
+[thread.c]
+material = "t"
+diameter_m = 0.002
+elements = 20
+along = ["net.main.top"]
+[closing]
+time_s = )" + time + "\n",
+                                     "closing.toml"),
+                          1);
+    simulation.advance_to(100);
+    return simulation;
+  };
+  Simulation soon = run("1e-9");
+  const double step = soon.preparation().dt;
+  Simulation next = run(std::to_string(step));
+  EXPECT_EQ(soon.preparation().closing_step, 1);
+  EXPECT_EQ(state_hash(soon.state()), state_hash(next.state()));
+  EXPECT_NEAR(soon.summary().energy.work_separation, 0.1 * 5, 1e-9);  // once, not twice
+  EXPECT_EQ(run("0").preparation().closing_step, 0);
 }
 
 TEST(Combinations, TowingThreadAndLaunchShareTheDiagonalOfAnOblongNet) {

@@ -83,7 +83,10 @@ Preparation prepare(const Scene& scene) {
   p.dt = scene.time.step > 0 ? scene.time.step : automatic_step(scene, p.stable_step);
   check_step(scene, p);
   p.end_step = std::llround(scene.time.end / p.dt);
-  if (closes) p.closing_step = std::llround(scene.closing.time.value_or(0) / p.dt);
+  // what closes after t = 0 was deployed first: for a step at least
+  const bool deploys = p.phases.size() > 1;
+  if (closes)
+    p.closing_step = std::max<std::int64_t>(std::llround(scene.closing.time.value_or(0) / p.dt), deploys);
   for (Phase& phase : p.phases) phase.plan = plan_steps(scene, phase.model, p.dt);
   return p;
 }

@@ -153,6 +153,27 @@ def of_study() -> list[dict[str, Any]]:
              "runs": runs, "best": best, "orders": {"contact, step 1e-06 s": 1.0}}]
 
 
+def of_stability() -> dict[str, Any]:
+    """A matrix as bench/stability writes it: a cell or two of each group that has a figure, one that FAILED."""
+    def cell(group: str, parameter: str, value: str, verdict: str, residual: float, **place: float) -> dict[str, Any]:
+        return {"group": group, "parameter": parameter, "value": value, "must": "held or stopped", "verdict": verdict,
+                "residual": residual, "steps": 1000, "message": "" if verdict == "held" else "error: at <t>",
+                "place": place}
+    cells = [cell("stiffness", "modulus, element length", f"{modulus:g} Pa, {length:g} m", "held",
+                  1e-5 * length * modulus**0.1, modulus_Pa=modulus, element_m=length)
+             for length in (0.001, 0.1) for modulus in (1e5, 1e7, 1e9)]
+    cells += [cell("slack and taut", f"{way}, damping ratio, step", f"0, {step}", "held" if step < 0.5 else "stopped",
+                   step**4 * (1 + 2 * (way == "whipped")), damping=0, step_fraction=step)
+              for way in ("whipped", "released slack") for step in (0.2, 0.4, 0.8)]
+    cells += [cell("motion", "mass on a ball, speed", f"{speed:g} m/s", "held" if speed < 100 else "FAILED",
+                   1e-4 * (speed - 0.1), speed_m_s=speed) for speed in (0.1, 1.0, 10.0, 100.0)]
+    groups = [{"name": name, **{words.lower(): sum(cell["group"] == name and cell["verdict"] == words for cell in cells)
+                                for words in ("held", "stopped", "FAILED")}}
+              for name in ("stiffness", "slack and taut", "motion")]
+    return {"version": "0.1.0", "commit": "c", "compiler": "GNU", "isa": "v3", "mode": "quick", "groups": groups,
+            "cells": cells}
+
+
 def store_page(folder: Path) -> Path:
     """A page with every figure filled, made by the programs as a user would."""
     import dashboard
@@ -163,7 +184,8 @@ def store_page(folder: Path) -> Path:
         history.append(folder / "history.jsonl", read_run(path))
     page = folder / "dashboard.html"
     page.write_text(dashboard.render(read_run(runs[-1]), history.read(folder / "history.jsonl"), INSTRUCTIONS,
-                                     "2026-04-02", dashboard.CHART_JS.read_text(encoding="utf-8"), of_study()),
+                                     "2026-04-02", dashboard.CHART_JS.read_text(encoding="utf-8"), of_study(),
+                                     of_stability()),
                     encoding="utf-8")
     return page
 

@@ -22,7 +22,7 @@ def page_of(data: dict[str, Any], instructions: dict[str, Any] | None = None) ->
     """The page of one run without a history."""
     with tempfile.TemporaryDirectory() as folder:
         run = read_run(sample.store(Path(folder), "run", data))
-        return dashboard.render(run, [], instructions or {}, "", CHART_JS, sample.of_study())
+        return dashboard.render(run, [], instructions or {}, "", CHART_JS, sample.of_study(), sample.of_stability())
 
 
 def embedded(page: str, element_id: str) -> Any:
@@ -44,13 +44,14 @@ class Page(unittest.TestCase):
     def test_every_figure_has_title_axes_caption_and_numbers(self) -> None:
         page = page_of(sample.google_json(), sample.INSTRUCTIONS)
         figures = re.findall(r'<figure class="plot">(.*?)</figure>', page, re.DOTALL)
-        self.assertEqual(len(figures), 14)
+        self.assertEqual(len(figures), 18)
         for figure in figures:
             for part in ("<h3>", "<canvas", "<figcaption>", "<details>", "<tbody><tr>"):
                 self.assertIn(part, figure)
         for chart in embedded(page, "figures"):
             for axis in ("value",) if chart["type"] == "bar" else ("x", "y"):
-                self.assertRegex(chart[axis]["title"], r"nodes|threads|speed-up|minutes|second|ns|ms|%|bytes|GB/s")
+                self.assertRegex(chart[axis]["title"], r"nodes|threads|speed-up|minutes|second|ns|ms|%|bytes|GB/s|"
+                                                       r"cells|residual|Pa|step|m/s")
 
     def test_the_paper_stands_beside_the_cases(self) -> None:
         page = page_of(sample.google_json())
@@ -92,6 +93,22 @@ class Page(unittest.TestCase):
             run = read_run(sample.store(Path(folder), "run", sample.google_json(only="element/")))
             self.assertIn("To measure it: <code>bench/study</code>", dashboard.render(run, [], {}, "", CHART_JS))
 
+    def test_the_matrix_is_counted_and_drawn_over_what_was_made_extreme(self) -> None:
+        page = page_of(sample.google_json())
+        charts = {chart["series"][0]["label"]: chart for chart in embedded(page, "figures")}
+        self.assertEqual([series["values"] for series in charts["held"]["series"]], [[6, 4, 3], [0, 2, 0], [0, 0, 1]])
+        over_modulus = charts["0.00100 m"]
+        self.assertEqual([series["label"] for series in over_modulus["series"]], ["0.00100 m", "0.100 m"])
+        self.assertEqual([x for x, _ in over_modulus["series"][0]["values"]], [1e5, 1e7, 1e9])
+        impacts = charts["mass on a ball"]["series"][0]["values"]
+        self.assertEqual(impacts[0], [0.1, None])  # nothing to draw for no residual
+        self.assertIn("error: at &lt;t&gt;", page)
+
+    def test_a_page_without_a_matrix_says_how_to_have_it(self) -> None:
+        with tempfile.TemporaryDirectory() as folder:
+            run = read_run(sample.store(Path(folder), "run", sample.google_json(only="element/")))
+            self.assertIn("To measure it: <code>bench/stability</code>", dashboard.render(run, [], {}, "", CHART_JS))
+
     def test_names_cannot_break_out_of_the_page(self) -> None:
         data = sample.google_json(machine="</script><b>", only="startup/")
         data["benchmarks"][0]["run_name"] = "startup/<i>&"
@@ -129,6 +146,13 @@ class Programs(unittest.TestCase):
         file.write_text('{"problems": [{}]}', encoding="utf-8")
         self.assertEqual(self.refused(self.run_file, "--chart-js", self.run_file, "--study", file),
                          f'error: {file}: must hold "problems" as bench/study writes them\n')
+
+    def test_bad_matrix(self) -> None:
+        file = self.folder / "stability.json"
+        for text in ('[]', '{"groups": [], "cells": [{}]}'):
+            file.write_text(text, encoding="utf-8")
+            self.assertEqual(self.refused(self.run_file, "--chart-js", self.run_file, "--stability", file),
+                             f'error: {file}: must hold "groups" and "cells" as bench/stability writes them\n')
 
     def test_no_chart_js_names_the_package(self) -> None:
         self.assertEqual(self.refused(self.run_file, "--chart-js", "/none"),
