@@ -6,6 +6,7 @@
 #include "motion_scenes.hpp"
 #include "plan/preparation.hpp"
 #include "quiet_net.hpp"
+#include "random_runs.hpp"
 #include "watch.hpp"
 
 namespace cinch::matrix {
@@ -127,6 +128,9 @@ std::vector<Cell> motion(Extent extent) {
   add_places(cells, extent);
   add_pressed_nets(cells);
   add_known(cells);
+  const int runs = extent == Extent::full ? 50000 : 300;
+  cells.emplace_back("motion", "random scenes", std::to_string(runs), Must::hold,
+                     [=] { return random_runs(runs); });
   const std::int64_t steps = extent == Extent::full ? 10000000 : 100000;
   cells.emplace_back("motion", "quiet hanging net, steps", words(static_cast<double>(steps)), Must::hold,
                      [=] { return quiet_net(steps); });

@@ -7,7 +7,6 @@ from typing import Any, Callable
 from command_line import BadInput
 from page.figure import Figure, Row, Series, bars, lines, rounded
 from stored_run import parse_json, read_text
-from text import number
 
 Matrix = dict[str, Any]
 CellOf = dict[str, Any]
@@ -58,7 +57,7 @@ def stiffness(matrix: Matrix) -> Figure:
     return _figure(
         "Energy residual with the automatic step, over modulus and element length",
         "Low is good, level as well: the automatic step then suits them all.", cells,
-        lambda cell: f"{number(cell['place']['element_m'])} m", "modulus_Pa", "Young's modulus, Pa", log=True)
+        lambda cell: f"{cell['place']['element_m']:g} m", "modulus_Pa", "Young's modulus, Pa", log=True)
 
 
 def slack(matrix: Matrix) -> Figure:
@@ -67,7 +66,7 @@ def slack(matrix: Matrix) -> Figure:
         "Energy residual of a thread that turns slack and taut",
         "Low is good; runs above 0.05 were stopped. Undamped threads need steps far below the stable one.",
         [cell for cell in matrix["cells"] if cell["group"] == "slack and taut"],
-        lambda cell: f"{cell['parameter'].split(',')[0]}, damping ratio {number(cell['place']['damping'])}",
+        lambda cell: f"{cell['parameter'].split(',')[0]}, damping ratio {cell['place']['damping']:g}",
         "step_fraction", "step over the stable step", log=False)
 
 

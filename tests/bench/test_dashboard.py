@@ -97,8 +97,8 @@ class Page(unittest.TestCase):
         page = page_of(sample.google_json())
         charts = {chart["series"][0]["label"]: chart for chart in embedded(page, "figures")}
         self.assertEqual([series["values"] for series in charts["held"]["series"]], [[6, 4, 3], [0, 2, 0], [0, 0, 1]])
-        over_modulus = charts["0.00100 m"]
-        self.assertEqual([series["label"] for series in over_modulus["series"]], ["0.00100 m", "0.100 m"])
+        over_modulus = charts["0.001 m"]
+        self.assertEqual([series["label"] for series in over_modulus["series"]], ["0.001 m", "0.1 m"])
         self.assertEqual([x for x, _ in over_modulus["series"][0]["values"]], [1e5, 1e7, 1e9])
         impacts = charts["mass on a ball"]["series"][0]["values"]
         self.assertEqual(impacts[0], [0.1, None])  # nothing to draw for no residual
