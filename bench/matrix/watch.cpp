@@ -62,12 +62,16 @@ class Books {
       return "energy grew by " + words(won) + " J, " + words(won / scale) +
              " of what the scene holds, at t = " + words(now.time()) + " s, without an error";
     const double dissipated = std::min(ledger.dissipated_damper, ledger.dissipated_contact);
-    if (dissipated < -limit_ * scale - rounding(here))
+    if (dissipated < -1.2 * limit_ * scale * takers(now) - rounding(here))
       return "dissipation of " + words(dissipated) + " J at t = " + words(now.time()) + " s";
     return "";
   }
 
  private:
+  /// What takes energy by itself, and is told of by itself.
+  static double takers(const Look& now) {
+    return static_cast<double>(1 + now.assembly().rings.size() + now.assembly().balls.size());
+  }
   static double rounding(const Stored& here) { return 1e-12 * here.size + 1e-20; }  // J
 
   Simulation* sim_;
