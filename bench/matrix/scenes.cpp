@@ -77,11 +77,6 @@ void fix_edges(Net& net) {
         net.nodes["knot." + std::to_string(i) + "." + std::to_string(j)].support = Support::fixed;
 }
 
-Scene with_step(Scene scene, double step) {
-  scene.time.step = step;
-  return scene;
-}
-
 Scene at_fraction(Scene scene, double fraction) {
   scene.time.step = 0;
   scene.time.step = fraction * prepare(scene).stable_step;

@@ -24,8 +24,6 @@ Net& add_net(Scene& scene, int columns, int rows);
 /// Holds all knots on the edges of the net.
 void fix_edges(Net& net);
 
-Scene with_step(Scene scene, double step);
-
 /// With a step of so many stable ones; above one it is allowed.
 Scene at_fraction(Scene scene, double fraction);
 
