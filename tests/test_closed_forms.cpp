@@ -271,13 +271,38 @@ youngs_modulus_Pa = 7e10
 }
 
 TEST(StableStep, LittleDampingKeepsTheAutomaticStepFarFromIt) {
-  for (const auto& [damping, most] : {std::pair{0.0, 0.2}, {0.02, 0.5}, {0.106, 0.8}}) {
+  for (const auto& [damping, most] : {std::pair{0.0, 0.1}, {0.007, 0.2}, {0.02, 0.3}, {0.106, 0.8}}) {
     Scene scene = chain(20, 0, 0.01);
     for (auto& [name, material] : scene.materials) material.damping_ratio = damping;
     scene.time.step = 0, scene.time.safety = 0.8, scene.output.frame_interval = 1;
     const Preparation p = prepare(scene);
     EXPECT_LE(p.dt, most * p.stable_step);
     EXPECT_GT(p.dt, 0.99 * most * p.stable_step);
+  }
+}
+
+// A thread of ten elements springs back from twice its length, for a second.
+TEST(StableStep, TheAutomaticOneKeepsEnergyOfAThreadWithLittleDamping) {
+  for (const double damping : {0.005, 0.01, 0.02, 0.05, 0.106}) {
+    Scene scene = scene_of(R"(schema = 1
+[time]
+end_s = 1
+[material.m]
+youngs_modulus_Pa = 1e9
+density_kg_m3 = 970
+[thread.main]
+material = "m"
+diameter_m = 0.002
+elements = 10
+length_m = 1
+points_m = [[0, 0, 0], [0, 2, 0]]
+start = { mass_kg = 0.1 }
+end = { support = "fixed" }
+)");
+    scene.materials.at("m").damping_ratio = damping;
+    Simulation sim(scene, 1);
+    run_until(sim, 1);
+    EXPECT_LT(sim.summary().relative_residual, 0.012) << "damping ratio " << damping;
   }
 }
 

@@ -49,7 +49,7 @@ std::string fault_of(Simulation& sim, std::int64_t end) {
 std::string fault_step_by_step(Simulation& sim, double speed_limit) {
   while (sim.step() < 4000 && speeds_allowed(sim.state(), speed_limit)) sim.stepper().advance(sim.state(), 1);
   try {
-    report_runaway(sim.preparation(), sim.model(), sim.state(), speed_limit);
+    report_runaway(sim.preparation(), sim.state(), speed_limit);
   } catch (const NumericalError& error) {
     return error.what();
   }

@@ -260,6 +260,9 @@ TEST_F(Program, ANumericalFailureKeepsItsFrames) {
   ASSERT_GE(result.frames(), 1);
   EXPECT_EQ(result.frame(0).step, 0);
   const cinch::Frame last = result.frame(result.frames() - 1);
+  ASSERT_FALSE(s.at("history").empty());
+  EXPECT_GT(s.at("history").back().at("speed").get<double>(), 1e5) << "the look that stopped it";
+  EXPECT_TRUE(has(s.at("history").back().at("fastest_node"), "of thread.main"));
   EXPECT_EQ(last.step, s.at("steps")) << "it ends with the last sound state";
   for (const cinch::Vec3& v : last.velocity) ASSERT_LT(v.norm(), 1e5) << "kept frames are sound";
   for (const cinch::Vec3& x : last.position) ASSERT_TRUE(x.allFinite());

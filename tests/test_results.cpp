@@ -129,6 +129,7 @@ Summary small_summary() {
   summary.stages = {{"elements", 3}, {"rings", 1}};
   summary.events = {{0.25, "ring_contact", "r1"}, {1.0 / 3, "separation", "m1"}};
   summary.ring_records = {{"r1", 0.25, 3, 5, 0.3}, {"r2", -1, 0, 0, -1}};
+  summary.history = {{0.3, "node 3 of thread.main", 1.0 / 3}};
   return summary;
 }
 
@@ -292,6 +293,8 @@ TEST(Results, SummaryComesBackToTheBit) {
   EXPECT_EQ(read.energy_initial, summary.energy_initial);
   EXPECT_EQ(read.angular_momentum_drift, summary.angular_momentum_drift);
   EXPECT_EQ(read.events.at(1).time, 1.0 / 3);
+  ASSERT_EQ(read.history.size(), 1u);
+  EXPECT_EQ(read.history[0].node, "node 3 of thread.main");
   EXPECT_EQ(read.ring_records.at(1).first_contact_time, -1);
   EXPECT_FALSE(summary_from_json(summary_to_json(small_summary()), "text").angular_momentum_drift);
 }

@@ -4,7 +4,7 @@
 #include <cstdio>
 
 #include "base/error.hpp"
-#include "plan/health.hpp"
+#include "plan/contact_health.hpp"
 #include "support/memory_archive.hpp"
 #include "support/scenes.hpp"
 

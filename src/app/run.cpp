@@ -193,6 +193,7 @@ class Run {
     Summary summary = simulation_.summary();
     summary.status = status;
     summary.message = message;
+    if (status != "failed") summary.history.clear();
     summary.host = host_name();
     summary.wall_seconds = before_ + now() - begin_;
     for (StageTime& stage : summary.stages) {

@@ -97,6 +97,13 @@ struct RingRecord {
   double peak_time = -1;           ///< s
 };
 
+/// How fast the fastest node was when a run looked at its speeds.
+struct Pace {
+  double time = 0;   ///< s
+  std::string node;  ///< "node 3 of thread.main"
+  double speed = 0;  ///< m/s
+};
+
 struct StageTime {
   std::string name;
   double seconds = 0;
@@ -127,6 +134,7 @@ struct Summary {
   std::vector<StageTime> stages;
   std::vector<Event> events;
   std::vector<RingRecord> ring_records;
+  std::vector<Pace> history;  ///< the last looks at speeds, of a run that failed
   double minutes_per_simulated_second() const {
     return simulated_seconds > 0 ? wall_seconds / 60 / simulated_seconds : 0;
   }

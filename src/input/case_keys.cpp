@@ -57,8 +57,8 @@ const Section<TimeSpec>& time_section() {
           {{.name = "safety",
             .range = above(0, 1),
             .fallback = "0.5",
-            .meaning = "Automatic step over the stable step; at most 0.2 where a material has "
-                       "`damping_ratio` < 0.01, at most 0.5 below 0.05.",
+            .meaning = "Automatic step over the stable step; at most 0.3 where a material has "
+                       "`damping_ratio` < 0.05, at most 0.2 below 0.01, at most 0.1 below 0.005.",
             .source = "threads that turn slack and taut gain energy well below the linear bound if little "
                       "damps them"},
            into(&TimeSpec::safety)},

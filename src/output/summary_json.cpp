@@ -68,6 +68,13 @@ Json rings_json(const std::vector<RingRecord>& records) {
   return list;
 }
 
+Json history_json(const std::vector<Pace>& history) {
+  Json list = Json::array();
+  for (const Pace& pace : history)
+    list.push_back({{"time", pace.time}, {"fastest_node", pace.node}, {"speed", pace.speed}});
+  return list;
+}
+
 double real(const Json& object, const char* name) {
   const Json& value = object.at(name);
   return value.is_null() ? std::numeric_limits<double>::quiet_NaN() : value.get<double>();
@@ -129,6 +136,10 @@ void read_lists(const Json& json, Summary& summary) {
         {ring.at("name").get<std::string>(), time_or_never(ring, "first_contact_time"),
          real(ring, "first_contact_force"), real(ring, "peak_force"), time_or_never(ring, "peak_time")});
   }
+  if (!json.contains("history")) return;  // results before it was written
+  for (const Json& pace : json.at("history"))
+    summary.history.push_back(
+        {real(pace, "time"), pace.at("fastest_node").get<std::string>(), real(pace, "speed")});
 }
 
 }  // namespace
@@ -160,7 +171,8 @@ std::string summary_to_json(const Summary& summary) {
             {"max_penetration", summary.max_penetration},
             {"stages", stages_json(summary.stages)},
             {"events", events_json(summary.events)},
-            {"rings", rings_json(summary.ring_records)}};
+            {"rings", rings_json(summary.ring_records)},
+            {"history", history_json(summary.history)}};
   return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 

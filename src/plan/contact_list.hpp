@@ -11,8 +11,8 @@
 namespace cinch {
 
 /// Share of the contact distance by which a thread may approach a wire within a step. Together with the depth
-/// of pressed_share (health.hpp) none gets through unnoticed: what goes from one side of the wire's middle to
-/// the other is seen at one step at least within 1 - pressed_share of it, as jump_share < 2 (1 -
+/// of pressed_share (contact_health.hpp) none gets through unnoticed: what goes from one side of the wire's
+/// middle to the other is seen at one step at least within 1 - pressed_share of it, as jump_share < 2 (1 -
 /// pressed_share).
 inline constexpr double jump_share = 0.5;
 

@@ -11,26 +11,6 @@ namespace {
 
 constexpr std::size_t at(Index i) { return static_cast<std::size_t>(i); }
 
-struct Fastest {
-  Index node = 0;
-  double speed = -1;  // m/s; not finite if any is not
-};
-
-Fastest fastest_node(const Model& model, const State& state) {
-  Fastest found;
-  for (Index i = 0; i < model.nodes && std::isfinite(found.speed); ++i) {
-    const double speed = std::hypot(state.vx[at(i)], state.vy[at(i)], state.vz[at(i)]);
-    if (!(speed <= found.speed)) found = {i, speed};
-  }
-  return found;
-}
-
-// What touches, by the number that tallies keep: an element, or a mass as a sphere.
-std::string label_of(const Preparation& preparation, Index item) {
-  return item < 0 ? node_label(preparation.assembly, kernel::sphere_label(item))
-                  : element_label(preparation, item);
-}
-
 Vec3 place(const State& state, Index node) {
   return {state.x[at(node)], state.y[at(node)], state.z[at(node)]};
 }
@@ -86,10 +66,21 @@ std::string likely_cause(const Preparation& preparation, const Model& model, con
 
 }  // namespace
 
+Fastest fastest_node(const State& state) {
+  Index fastest = 0;
+  double greatest = -1;
+  for (std::size_t i = 0; i < state.vx.size() && greatest < HUGE_VAL; ++i) {
+    const double x = state.vx[i], y = state.vy[i], z = state.vz[i], squared = x * x + y * y + z * z;
+    if (!(squared <= greatest)) fastest = static_cast<Index>(i), greatest = squared;
+  }
+  const std::size_t i = at(fastest);
+  return {fastest, state.vx.empty() ? 0 : std::hypot(state.vx[i], state.vy[i], state.vz[i])};
+}
+
 void check_energy(const Preparation& preparation, const Model& model, const State& state, double residual,
                   double scale, double limit) {
   if (std::abs(residual) <= limit * scale + least_energy) return;  // not so for what is no number
-  const Fastest fastest = fastest_node(model, state);
+  const Fastest fastest = fastest_node(state);
   const auto i = at(fastest.node);
   char text[1000];
   std::snprintf(
@@ -104,125 +95,6 @@ void check_energy(const Preparation& preparation, const Model& model, const Stat
   throw NumericalError(text);
 }
 
-// Contacts at shared nodes are counted once by taking the node's own off those of its elements. Where a node
-// and most of the elements at it sink in side by side, less than nothing is left: the contact draws in, and
-// its damping drives.
-void check_contact_energy(const Preparation& preparation, const State& state, double scale, double limit) {
-  const auto check = [&](const char* kind, const std::string& name, const char* verb, double energy,
-                         Index first) {
-    if (!(energy < -limit * scale - least_energy)) return;
-    char text[700];
-    std::snprintf(
-        text, sizeof text,
-        "error: at t = %.9g s the contacts with %s '%s' %s %.3g J, less than nothing: -%.3g times what the "
-        "scene began with and what was put in (time.residual_limit = %.3g); first of all %s; likely cause: "
-        "nodes that sink in side by side with the elements that meet there; take longer elements, a harder "
-        "%s or contact.shared_node = \"paper\"",
-        static_cast<double>(state.step) * preparation.dt, kind, name.c_str(), verb, energy,
-        scale > 0 ? -energy / scale : HUGE_VAL, limit, label_of(preparation, first).c_str(), kind);
-    throw NumericalError(text);
-  };
-  const auto check_both = [&](const char* kind, const std::string& name, double potential, double dissipated,
-                              Index first) {
-    check(kind, name, "hold", potential, first);
-    check(kind, name, "have taken", dissipated, first);
-  };
-  for (std::size_t r = 0; r < state.rings.size(); ++r)
-    check_both("ring", preparation.assembly.rings[r].name, state.rings[r].potential,
-               state.rings[r].dissipated, state.rings[r].stiffest_element);
-  for (std::size_t b = 0; b < state.balls.size(); ++b) {
-    double potential = 0, dissipated = 0, least = 0;
-    Index first = -1;
-    for (const kernel::BallTally& tally : state.balls[b]) {
-      potential += tally.potential;
-      dissipated += tally.dissipated;
-      if (const double own = std::min(tally.potential, tally.dissipated); own < least)
-        least = own, first = tally.stiffest_element;
-    }
-    check_both("target", preparation.assembly.balls[b].name, potential, dissipated, first);
-  }
-}
-
-namespace {
-
-template <class Tally>
-void check_stiffness(const Preparation& preparation, const std::string& with, const Tally& tally) {
-  if (!(tally.stiffest > 1)) return;
-  char text[500];
-  std::snprintf(
-      text, sizeof text,
-      "error: at t = %.9g s the contact of %s with %s needed %.3g times what the stable step leaves; "
-      "likely cause: an impact too hard for the time step %.3g s (or an overlap at the start); a step of "
-      "%.2g s would carry it",
-      tally.stiffest_time, label_of(preparation, tally.stiffest_element).c_str(), with.c_str(),
-      tally.stiffest, preparation.dt, preparation.dt / tally.stiffest * 0.9);
-  throw NumericalError(text);
-}
-
-// `distance`: at which the thinnest of what touches would be through.
-template <class Tally>
-void check_depth(const Preparation& preparation, const State& state, const std::string& with,
-                 const Tally& tally, double distance) {
-  if (!(tally.max_penetration > pressed_share * distance)) return;
-  char text[500];
-  std::snprintf(
-      text, sizeof text,
-      "error: at t = %.9g s %s (or a neighbour) is pressed %.3g m into %s, of the %.3g m at which it "
-      "would be through; likely cause: a contact too soft for the pull, or a time step too long for "
-      "an impact (%.3g s)",
-      static_cast<double>(state.step) * preparation.dt, label_of(preparation, tally.stiffest_element).c_str(),
-      tally.max_penetration, with.c_str(), distance, preparation.dt);
-  throw NumericalError(text);
-}
-
-}  // namespace
-
-void check_contacts(const Preparation& preparation, const Model& model, const State& state) {
-  for (std::size_t r = 0; r < state.rings.size(); ++r) {
-    if (model.slides(r)) continue;
-    const std::string name = "ring '" + preparation.assembly.rings[r].name + "'";
-    check_stiffness(preparation, name, state.rings[r]);
-    check_depth(preparation, state, name, state.rings[r],
-                model.ring_wire_radius[r] + model.contact_sets[at(model.ring_set[r])].thinnest);
-  }
-  for (std::size_t b = 0; b < state.balls.size(); ++b)
-    for (const kernel::BallTally& tally : state.balls[b]) {
-      const std::string name = "target '" + preparation.assembly.balls[b].name + "'";
-      check_stiffness(preparation, name, tally);
-      check_depth(preparation, state, name, tally, model.balls[b].radius);
-    }
-}
-
-void report_jump(const Preparation& preparation, const State& state, const Jump& jump) {
-  const auto with = at(jump.pair.with);
-  const std::string name = jump.ring ? "ring '" + preparation.assembly.rings[with].name + "'"
-                                     : "target '" + preparation.assembly.balls[with].name + "'";
-  const double allowed = jump_share * jump.pair.contact_distance;
-  char text[600];
-  std::snprintf(
-      text, sizeof text,
-      "error: at t = %.9g s %s comes towards %s by %.3g m in one step, too far to see it touch (allowed: "
-      "%.3g m); likely cause: the time step %.3g s is too long for %.3g m/s; a step of %.2g s would do",
-      static_cast<double>(state.step) * preparation.dt, label_of(preparation, jump.pair.element).c_str(),
-      name.c_str(), jump.motion, allowed, preparation.dt, jump.motion / preparation.dt,
-      0.9 * allowed / jump.motion * preparation.dt);
-  throw NumericalError(text);
-}
-
-void report_loss(const Preparation& preparation, const Look& now, const ThreadingWatch::Loss& loss) {
-  const Vec3 place = now.ring_center(loss.ring);
-  char text[600];
-  std::snprintf(
-      text, sizeof text,
-      "error: at t = %.9g s %s has left ring '%s' at (%.6g, %.6g, %.6g) m: it passed through it %d time(s), "
-      "now %d; likely cause: an end was drawn through the opening, or the thread through the wire (a "
-      "contact too soft, a time step too long); contact.leaving = \"event\" goes on",
-      now.time(), preparation.assembly.parts[at(loss.part)].reference().c_str(),
-      preparation.assembly.rings[at(loss.ring)].name.c_str(), place.x(), place.y(), place.z(), loss.before,
-      loss.now);
-  throw NumericalError(text);
-}
-
 bool speeds_allowed(const State& state, double speed_limit) {
   const double limit = speed_limit * speed_limit;
   bool allowed = true;
@@ -233,10 +105,9 @@ bool speeds_allowed(const State& state, double speed_limit) {
   return allowed;
 }
 
-void report_runaway(const Preparation& preparation, const Model& model, const State& state,
-                    double speed_limit) {
+void report_runaway(const Preparation& preparation, const State& state, double speed_limit) {
   const double time = static_cast<double>(state.step) * preparation.dt;
-  const auto [worst, fastest] = fastest_node(model, state);
+  const auto [worst, fastest] = fastest_node(state);
   char text[600];
   std::snprintf(text, sizeof text,
                 "error: at t = %.9g s %s at (%.6g, %.6g, %.6g) m moves at %.3g m/s (time.speed_limit_m_s = "

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "plan/contact_health.hpp"
 #include "plan/health.hpp"
 #include "plan/probes.hpp"
 #include "statics/equilibrium.hpp"
@@ -19,6 +20,8 @@ constexpr std::size_t at(Index i) { return static_cast<std::size_t>(i); }
 std::int64_t health_interval(Index nodes) {
   return std::clamp<std::int64_t>((1 << 22) / std::max(nodes, 1), 256, 4096);
 }
+
+constexpr std::size_t history_length = 8;  ///< looks at speeds that a run which fails tells of
 
 // Positions of the nodes that exist before closing in static equilibrium; closing nodes are laid on them
 // again.
@@ -189,11 +192,14 @@ void Simulation::advance_to(std::int64_t target) {
 }
 
 void Simulation::check_health() {
+  const Fastest fastest = fastest_node(state_);
+  if (history_.size() == history_length) history_.erase(history_.begin());
+  history_.push_back({time(), fastest});
   if (!scene_.time.allow_unstable)
     check_contacts(preparation_, model(), state_);  // first: an impact too hard is what makes a node run away
   if (stepper_->jump()) report_jump(preparation_, state_, *stepper_->jump());
-  if (!stepper_->healthy()) report_runaway(preparation_, model(), state_, scene_.time.speed_limit);
-  if (!speeds_allowed(state_, scene_.time.speed_limit)) find_fault();
+  if (!stepper_->healthy()) report_runaway(preparation_, state_, scene_.time.speed_limit);
+  if (!(fastest.speed <= scene_.time.speed_limit)) find_fault();
   if (state_.step - sound_.step >= health_interval(model().nodes)) remember();
 }
 
@@ -210,7 +216,7 @@ void Simulation::find_fault() {
   const std::int64_t seen = state_.step;
   step_back();
   while (state_.step < seen && speeds_allowed(state_, scene_.time.speed_limit)) stepper_->advance(state_, 1);
-  report_runaway(preparation_, model(), state_, scene_.time.speed_limit);
+  report_runaway(preparation_, state_, scene_.time.speed_limit);
 }
 
 const Look& Simulation::look() {

@@ -4,6 +4,7 @@
 
 #include "base/result.hpp"
 #include "plan/closing.hpp"
+#include "plan/health.hpp"
 #include "plan/ledger.hpp"
 #include "plan/memory.hpp"
 #include "plan/preparation.hpp"
@@ -86,6 +87,11 @@ class Simulation {
   std::size_t phase_ = 0;
   State state_;
   State sound_;  ///< the last state that was looked at and kept; faults are searched for from there
+  struct Paced {
+    double time;  // s
+    Fastest fastest;
+  };
+  std::vector<Paced> history_;  ///< of the last looks at speeds
   std::unique_ptr<Stepper> stepper_;
   Look look_;
   Ledger ledger_;

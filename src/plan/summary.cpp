@@ -96,6 +96,8 @@ Summary Simulation::summary() {
     s.stages.push_back(
         {stage_name(static_cast<StageId>(stage)), seconds_[stage] + stepper_->seconds()[stage]});
   s.events = all_events();
+  for (const Paced& paced : history_)
+    s.history.push_back({paced.time, node_label(assembly, paced.fastest.node), paced.fastest.speed});
   for (std::size_t r = 0; r < assembly.rings.size(); ++r) {
     RingRecord record;
     record.name = assembly.rings[r].name;

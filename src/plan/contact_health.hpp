@@ -1,0 +1,28 @@
+// What a run whose contacts go wrong says: the element, the ring or target, the time, the likely cause.
+#pragma once
+#include "plan/jumps.hpp"
+#include "plan/preparation.hpp"
+#include "plan/threading_watch.hpp"
+
+namespace cinch {
+
+/// Throws NumericalError when a contact has needed more than the elements leave of the stable step: it would
+/// grow without bound; and for one that is about to be pressed through what it touches.
+void check_contacts(const Preparation& preparation, const Model& model, const State& state);
+
+/// Throws NumericalError when the contacts of a ring or target hold less than nothing, or when their damping
+/// has given energy in place of taking it: more than `limit` times `scale` (J). The residual shows neither,
+/// as both are booked.
+void check_contact_energy(const Preparation& preparation, const State& state, double scale, double limit);
+
+/// A contact deeper than this share of its distance is as good as through the wire.
+inline constexpr double pressed_share = 0.7;
+
+/// Throws NumericalError for the jump that ended the last step.
+[[noreturn]] void report_jump(const Preparation& preparation, const State& state, const Jump& jump);
+
+/// Throws NumericalError for a thread that has left a ring.
+[[noreturn]] void report_loss(const Preparation& preparation, const Look& now,
+                              const ThreadingWatch::Loss& loss);
+
+}  // namespace cinch
