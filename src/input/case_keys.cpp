@@ -243,7 +243,7 @@ const Section<Contact>& contact_section() {
             .fallback = "\"stop\"",
             .meaning =
                 "What a thread does that leaves a ring through which it passed: it stops the run, or is "
-                "noted among the events. Looked for at samples of probes.",
+                "noted among the events. Looked for at samples of probes, every 2000 steps or more.",
             .source = "a thread out of its ring closes nothing"},
            into(&Contact::leaving)},
           {{.name = "margin_m",

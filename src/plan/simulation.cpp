@@ -192,20 +192,26 @@ void Simulation::advance_to(std::int64_t target) {
 }
 
 void Simulation::check_health() {
-  const Fastest fastest = fastest_node(state_);
-  if (history_.size() == history_length) history_.erase(history_.begin());
-  history_.push_back({time(), fastest});
   if (!scene_.time.allow_unstable)
     check_contacts(preparation_, model(), state_);  // first: an impact too hard is what makes a node run away
   if (stepper_->jump()) report_jump(preparation_, state_, *stepper_->jump());
   if (!stepper_->healthy()) report_runaway(preparation_, state_, scene_.time.speed_limit);
-  if (!(fastest.speed <= scene_.time.speed_limit)) find_fault();
-  if (state_.step - sound_.step >= health_interval(model().nodes)) remember();
+  if (!speeds_allowed(state_, scene_.time.speed_limit)) find_fault();
+  if (state_.step - sound_.step >= health_interval(model().nodes)) {
+    note_pace();
+    remember();
+  }
+}
+
+void Simulation::note_pace() {
+  if (history_.size() == history_length) history_.erase(history_.begin());
+  history_.push_back({time(), fastest_node(state_)});
 }
 
 void Simulation::remember() { sound_ = state_; }
 
 void Simulation::step_back() {
+  note_pace();  // of what went wrong
   state_ = sound_;
   stepper_->start_over();
 }

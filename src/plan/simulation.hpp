@@ -76,6 +76,7 @@ class Simulation {
   void enter_phase(std::size_t phase);
   void close();
   void check_health();
+  void note_pace();
   void note_losses(const Look& now);
   void remember();
   [[noreturn]] void find_fault();

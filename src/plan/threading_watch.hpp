@@ -20,7 +20,8 @@ class ThreadingWatch {
 
   /// Also watches, from now on, the threads that pass through a ring in this look and were not there before.
   void begin(const Look& now);
-  /// Those lost since the last call; they are watched no more.
+  /// Those lost since the last look, which is some thousand steps ago or more (else it does not look again);
+  /// they are watched no more.
   std::vector<Loss> losses(const Look& now);
   bool empty() const { return watched_.empty(); }
   /// `elements`: those of the scene now.
@@ -31,7 +32,8 @@ class ThreadingWatch {
     Index ring, part, times;
   };
   std::vector<Watched> watched_;
-  Index elements_ = 0;  ///< of the scene, when it was last looked at for threads
+  Index elements_ = 0;     ///< of the scene, when it was last looked at for threads
+  std::int64_t next_ = 0;  ///< step of the next look
 };
 
 }  // namespace cinch
