@@ -10,8 +10,6 @@ namespace cinch {
 
 namespace {
 
-constexpr std::size_t max_size = 64u << 20;  // bytes; a larger file is no case file
-
 std::string read_text(const std::filesystem::path& file) {
   std::error_code ignored;
   if (std::filesystem::is_directory(file, ignored))
@@ -21,7 +19,8 @@ std::string read_text(const std::filesystem::path& file) {
   std::string block(1 << 16, '\0'), text;
   while (stream.read(block.data(), static_cast<std::streamsize>(block.size())) || stream.gcount() > 0) {
     text.append(block.data(), static_cast<std::size_t>(stream.gcount()));
-    if (text.size() > max_size) throw CaseError(file.string() + ": error: the file is larger than 64 MiB");
+    if (text.size() > max_case_size)
+      throw CaseError(file.string() + ": error: the file is larger than 4 MiB");
   }
   return text;
 }

@@ -10,18 +10,30 @@ namespace cinch {
 namespace {
 
 constexpr std::size_t max_shown = 20;
-constexpr std::size_t max_kept = 10000;  // a file of garbage may hold millions
+constexpr std::size_t max_kept = 1000;  // a file of garbage may hold millions
+constexpr std::size_t max_text = 600;   // characters of a message
 
 // Overrides first: they are what the user typed last.
 auto order_of(Place place) {
   return std::tuple(place.override_number == 0, place.override_number, place.line, place.column);
 }
 
+// What a file says may hold anything: no line breaks, nothing that moves a terminal's cursor.
+std::string printable(std::string text) {
+  for (char& c : text)
+    if (static_cast<unsigned char>(c) < 0x20 || c == 0x7F) c = c == '\t' ? ' ' : '?';
+  return text;
+}
+
+std::string shortened(const std::string& text) {
+  return printable(text.size() > max_text ? text.substr(0, max_text - 3) + "..." : text);
+}
+
 }  // namespace
 
 void Diagnostics::error(Place place, const std::string& message, const std::string& help) {
-  ++count_;
-  if (errors_.size() < max_kept) errors_.push_back({place, message, help});
+  errors_.push_back({place, shortened(message), printable(help)});
+  if (errors_.size() >= max_kept) throw_if_any();
 }
 
 std::string Diagnostics::where(Place place) const {
@@ -46,11 +58,8 @@ std::string Diagnostics::source_line(Place place) const {
   if (!line.empty() && line.back() == '\r') line.pop_back();
   const auto column = static_cast<std::size_t>(place.column - 1);
   if (line.empty() || column > line.size() || column > 90) return "";
-  std::string caret(column, ' ');
-  for (std::size_t i = 0; i < column; ++i)
-    if (line[i] == '\t') caret[i] = '\t';
   if (line.size() > 100) line = line.substr(0, 97) + "...";
-  return "\n    " + line + "\n    " + caret + "^";
+  return "\n    " + printable(line) + "\n    " + std::string(column, ' ') + "^";
 }
 
 std::string Diagnostics::format(const Entry& entry) const {
@@ -66,8 +75,9 @@ void Diagnostics::throw_if_any() const {
   std::string text;
   for (std::size_t i = 0; i < sorted.size() && i < max_shown; ++i)
     text += (i ? "\n" : "") + format(sorted[i]);
-  if (count_ > max_shown)
-    text += "\n" + file_name_ + ": error: " + std::to_string(count_ - max_shown) + " more";
+  if (sorted.size() > max_shown)
+    text += "\n" + file_name_ + ": error: " + std::to_string(sorted.size() - max_shown) + " more" +
+            (sorted.size() < max_kept ? "" : " or many more: reading stopped there");
   throw CaseError(text);
 }
 

@@ -21,7 +21,8 @@ class Diagnostics {
   Diagnostics(std::string file_name, std::string_view text, const std::vector<Override>& overrides)
       : file_name_(std::move(file_name)), text_(text), overrides_(overrides) {}
 
-  /// Notes an error; `help` (allowed keys, values, ...) is shown on a line of its own.
+  /// Notes an error; `help` (allowed keys, values, ...) is shown on a line of its own. Throws after a
+  /// thousand.
   void error(Place place, const std::string& message, const std::string& help = "");
   bool empty() const { return errors_.empty(); }
   /// Throws CaseError with the first 20 errors, overrides first, then in the order of the file, if there are
@@ -42,7 +43,6 @@ class Diagnostics {
   std::string_view text_;
   const std::vector<Override>& overrides_;
   std::vector<Entry> errors_;
-  std::size_t count_ = 0;
 };
 
 }  // namespace cinch

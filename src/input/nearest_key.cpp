@@ -7,6 +7,8 @@ namespace cinch {
 
 namespace {
 
+constexpr std::size_t max_word = 40, max_candidates = 1000;  // more is no slip of the pen, or takes long
+
 char lower(char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; }
 
 // Number of insertions, deletions, replacements and swaps of neighbours, letters' case ignored.
@@ -35,11 +37,13 @@ bool is_beginning(const std::string& word, const std::string& candidate) {
 }  // namespace
 
 std::string nearest_key(const std::string& word, const std::vector<std::string>& candidates) {
-  if (word.size() > 100) return "";
+  if (word.size() > max_word) return "";
   std::string best;
   std::size_t best_distance = std::max<std::size_t>(2, word.size() / 2);
-  for (const std::string& candidate : candidates) {
+  for (std::size_t i = 0; i < candidates.size() && i < max_candidates; ++i) {
+    const std::string& candidate = candidates[i];
     if (is_beginning(word, candidate)) return candidate;
+    if (candidate.size() > word.size() + best_distance) continue;
     const std::size_t distance = typing_distance(word, candidate);
     if (distance < best_distance) {
       best = candidate;

@@ -9,7 +9,9 @@ namespace cinch {
 
 namespace {
 
-constexpr double max_meshes = 1e8;  // of one net, times the elements of a mesh side
+constexpr double max_meshes = 1e8;          // of one net, times the elements of a mesh side
+constexpr std::size_t max_rings = 100000;   // of a case: each is looked at by itself in every step
+constexpr std::size_t max_tables = 100000;  // of a case: parts and nodes
 
 std::string toml_vector(const Vec3& v) {
   return "[" + toml_text(v.x()) + ", " + toml_text(v.y()) + ", " + toml_text(v.z()) + "]";
@@ -73,6 +75,10 @@ NodeSpec CaseBuilder::read_node(const std::string& path, const TomlMember& membe
          path + ": found " + describe(member.value) + ", allowed: a table of the keys of a node");
     return node;
   }
+  if (sections_.size() >= max_tables) {
+    fail(member.key_place, "the case has more than " + std::to_string(max_tables) + " parts and nodes");
+    diagnostics_.throw_if_any();
+  }
   node.source.text = diagnostics_.where(member.key_place);
   sections_.push_back(
       cinch::read_section(node_section(), path, member.key_place, member.value, method_, diagnostics_, node));
@@ -88,7 +94,7 @@ void CaseBuilder::read_thread(const TomlMember& member) {
   if (values.given("along") && thread.along.empty())
     fail(values.place_of("along"), path + ".along: found [], allowed: one part or more");
   for (std::size_t i = 1; i < thread.points.size(); ++i)
-    if (thread.points[i] == thread.points[i - 1])
+    if (!((thread.points[i] - thread.points[i - 1]).norm() > 0))  // which may be too small for its square
       fail(values.find("points_m")->value.toml.items[i].place,
            path + ".points_m: a point equal to the one before, allowed: points that differ");
   if (const TomlMember* start = table_in(member.value, "start"))
@@ -207,9 +213,20 @@ void CaseBuilder::read_rings(const TomlMember& member) {
   const Net* net = references_.net(row.net);
   if (!values.sound || !net) return references_.set_incomplete("ring");
   check_ring_element(row.ring, values);
+  const auto meshes_on = [net](const std::string& edge) {
+    return edge == "top" || edge == "bottom" ? net->columns() : net->rows();
+  };
+  std::size_t rings = scene_.rings.size();
+  for (const std::string& edge : row.edges)
+    rings += row.cells.empty() ? static_cast<std::size_t>(meshes_on(edge)) : row.cells.size();
+  if (rings > max_rings) {
+    fail(values.place_of("cells"), values.path + ".cells: with them the case has " + std::to_string(rings) +
+                                       " rings, allowed: <= " + std::to_string(max_rings));
+    return references_.set_incomplete("ring");
+  }
   int number = 0;
   for (const std::string& edge : row.edges) {
-    const int meshes = edge == "top" || edge == "bottom" ? net->columns() : net->rows();
+    const int meshes = meshes_on(edge);
     std::vector<int> cells = row.cells;
     if (cells.empty())
       for (int cell = 1; cell <= meshes; ++cell) cells.push_back(cell);
@@ -219,12 +236,12 @@ void CaseBuilder::read_rings(const TomlMember& member) {
       ring.source = row.source;
       ring.host = RingHost::element;
       ring.element_of = "net." + net->name + "." + edge;
-      ring.element = (cell - 1) * net->elements_per_side + net->elements_per_side / 2;
       if (cell > meshes)
         fail(values.place_of("cells"), values.path + ".cells: found " + std::to_string(cell) +
                                            ", allowed: 1 to " + std::to_string(meshes) + " on " +
                                            ring.element_of);
       else {
+        ring.element = (cell - 1) * net->elements_per_side + net->elements_per_side / 2;
         add_ring(ring, member.key_place);
         references_.add("ring", ring.name);
       }

@@ -116,8 +116,8 @@ int References::elements_along(const Reference& reference) const {
 std::optional<ReferenceProblem> References::check_name(const std::string& kind,
                                                        const std::string& name) const {
   const auto& known = names(kind);
-  if (incomplete_.count(kind) || std::find(known.begin(), known.end(), name) != known.end())
-    return std::nullopt;
+  const auto found = known_.find(kind);
+  if (incomplete_.count(kind) || (found != known_.end() && found->second.count(name))) return std::nullopt;
   return ReferenceProblem{
       "unknown " + kind + " '" + name + "'" + did_you_mean(name, known),
       known.empty() ? "the case has no [" + kind + ".NAME]" : kind + "s of this case: " + list_of(known)};

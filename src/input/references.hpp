@@ -43,7 +43,9 @@ class References {
  public:
   explicit References(const Scene& scene) : scene_(scene) {}
   /// Makes a name known; names of faulty parts too, so that one mistake is told once.
-  void add(const std::string& kind, const std::string& name) { names_[kind].push_back(name); }
+  void add(const std::string& kind, const std::string& name) {
+    if (known_[kind].insert(name).second) names_[kind].push_back(name);
+  }
   /// Some names of a kind are missing because of another error: unknown ones are not told again.
   void set_incomplete(const std::string& kind) { incomplete_.insert(kind); }
   /// Nothing, or what is wrong.
@@ -60,7 +62,8 @@ class References {
   std::optional<ReferenceProblem> check_number(const Reference& reference) const;
 
   const Scene& scene_;
-  std::map<std::string, std::vector<std::string>> names_;
+  std::map<std::string, std::vector<std::string>> names_;  // in the order of the file
+  std::map<std::string, std::set<std::string>> known_;     // the same, to be found fast
   std::set<std::string> incomplete_;
 };
 

@@ -260,8 +260,10 @@ std::string allowed_text(const KeyInfo& key) {
 
 bool check_value(const KeyInfo& key, const TomlValue& found, Value& value, std::string& problem,
                  Place& place) {
-  value.toml = found;
-  if (accept(key, found, value, place)) return true;
+  if (accept(key, found, value, place)) {
+    value.toml = found;
+    return true;
+  }
   problem = "found " + describe(found);
   if (found.type == Type::string) problem += did_you_mean(found.text, key.words);
   problem += ", allowed: " + allowed_text(key);

@@ -4,6 +4,7 @@
 #include <array>
 #include <charconv>
 #include <cmath>
+#include <cstdio>
 #include <stdexcept>
 
 namespace cinch {
@@ -20,8 +21,8 @@ namespace cinch {
 
 namespace {
 
-constexpr std::size_t max_size = 64u << 20;  // bytes of a case file
-constexpr int max_key_parts = 32;            // a.b.c...: tables nest by recursion, so depth costs stack
+constexpr std::size_t max_name = 100;  // characters of a key or name
+constexpr int max_key_parts = 32;      // a.b.c...: tables nest by recursion, so depth costs stack
 
 // Walks over the text before toml++ sees it. It knows comments and strings just well enough to blank what
 // toml++ cannot take, and bounds the depth of dotted keys. Whatever it misjudges, only ASCII reaches toml++.
@@ -30,7 +31,7 @@ class PreScan {
   explicit PreScan(std::string_view text) : text_(text) {}
 
   std::string run() {
-    if (text_.size() > max_size) throw TomlError{{1, 1}, "the file is larger than 64 MiB"};
+    if (text_.size() > max_case_size) throw TomlError{{1, 1}, "the file is larger than 4 MiB"};
     if (text_.substr(0, 3) == "\xEF\xBB\xBF") text_.replace(0, 3, "   ");  // byte order mark
     for (at_ = 0; at_ < text_.size(); ++at_) {
       const char c = text_[at_];
@@ -105,8 +106,12 @@ Place place_of(const toml::source_region& region) {
 TomlValue convert(const toml::node& node);
 
 void convert_table(const toml::table& table, TomlValue& value) {
-  for (const auto& [key, child] : table)
+  for (const auto& [key, child] : table) {
+    if (key.str().size() > max_name)
+      throw TomlError{place_of(key.source()),
+                      "a key or name of more than " + std::to_string(max_name) + " characters"};
     value.members.push_back({std::string(key.str()), place_of(key.source()), convert(child)});
+  }
   // toml++ sorts by key; the order of the file is the order of the parts
   std::stable_sort(value.members.begin(), value.members.end(), [](const TomlMember& a, const TomlMember& b) {
     return a.key_place.line != b.key_place.line ? a.key_place.line < b.key_place.line
@@ -140,6 +145,24 @@ TomlValue convert(const toml::node& node) {
     value.type = Type::date;
   }
   return value;
+}
+
+// "\u00E4": what lies beyond ASCII comes in as escapes and leaves as escapes.
+std::string escaped(std::uint32_t code) {
+  std::array<char, 16> text{};
+  std::snprintf(text.data(), text.size(), code > 0xFFFF ? "\\U%08X" : "\\u%04X", code);
+  return text.data();
+}
+
+// The character of several bytes that begins at `i`, which is moved to its last byte. Strings are valid
+// UTF-8: toml++ saw to that.
+std::uint32_t code_point(const std::string& string, std::size_t& i) {
+  const auto first = static_cast<unsigned char>(string[i]);
+  const int more = first >= 0xF0 ? 3 : first >= 0xE0 ? 2 : 1;
+  std::uint32_t code = first & (0x3Fu >> more);
+  for (int k = 0; k < more && i + 1 < string.size(); ++k)
+    code = code << 6 | (static_cast<unsigned char>(string[++i]) & 0x3Fu);
+  return code;
 }
 
 void set_places(TomlValue& value, Place place) {
@@ -199,20 +222,21 @@ std::string toml_text(double number) {
 }
 
 std::string toml_text(const std::string& string) {
-  static constexpr std::string_view hex = "0123456789ABCDEF";
   std::string text = "\"";
-  for (const char c : string) {
+  for (std::size_t i = 0; i < string.size(); ++i) {
+    const char c = string[i];
     const auto code = static_cast<unsigned char>(c);
     if (c == '"' || c == '\\') text += std::string("\\") + c;
     else if (c == '\n') text += "\\n";
     else if (c == '\t') text += "\\t";
-    else if (code < 0x20 || code == 0x7F) text += std::string("\\u00") + hex[code >> 4] + hex[code & 15];
+    else if (code < 0x20 || code == 0x7F) text += escaped(code);
+    else if (code >= 0x80) text += escaped(code_point(string, i));
     else text += c;
   }
   return text + "\"";
 }
 
-std::string toml_text(const TomlValue& value) {
+std::string toml_text(const TomlValue& value, std::size_t enough) {
   using Type = TomlValue::Type;
   std::string text;
   switch (value.type) {
@@ -227,11 +251,16 @@ std::string toml_text(const TomlValue& value) {
     case Type::date:
       return "a date or time";
     case Type::array:
-      for (const TomlValue& item : value.items) text += (text.empty() ? "" : ", ") + toml_text(item);
+      for (const TomlValue& item : value.items) {
+        if (text.size() > enough) break;
+        text += (text.empty() ? "" : ", ") + toml_text(item, enough);
+      }
       return "[" + text + "]";
     case Type::table:
-      for (const TomlMember& member : value.members)
-        text += (text.empty() ? "" : ", ") + toml_key(member.key) + " = " + toml_text(member.value);
+      for (const TomlMember& member : value.members) {
+        if (text.size() > enough) break;
+        text += (text.empty() ? "" : ", ") + toml_key(member.key) + " = " + toml_text(member.value, enough);
+      }
       return "{ " + text + " }";
   }
   return text;
@@ -247,7 +276,7 @@ std::string toml_key(const std::string& key) {
 std::string describe(const TomlValue& value) {
   static constexpr std::array<const char*, 7> names = {"string", "integer", "number", "boolean",
                                                        "array",  "table",   "date"};
-  std::string text = toml_text(value);
+  std::string text = toml_text(value, 60);
   const bool looks_whole = text.find_first_not_of("-0123456789") == std::string::npos;
   if (value.type == TomlValue::Type::number && looks_whole) text += ".0";
   if (text.size() > 60) text = text.substr(0, 57) + "...";

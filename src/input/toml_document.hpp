@@ -44,14 +44,18 @@ struct TomlError {
   std::string what;
 };
 
+/// Bytes of a case file: a hundred thousand points of a thread. A value takes about a hundred times the
+/// memory of its text, so this bounds what a broken file can cost.
+constexpr std::size_t max_case_size = 4u << 20;
+
 /// Parses a document. Only ASCII is accepted outside of comments; throws TomlError.
 TomlValue parse_toml(std::string_view text);
 
 /// Parses one value; a text that is no TOML value counts as a string. Throws TomlError for non-ASCII text.
 TomlValue parse_toml_value(std::string_view text, Place place);
 
-/// A value as TOML text on one line.
-std::string toml_text(const TomlValue& value);
+/// A value as TOML text on one line; after `enough` characters the rest of a list may be left out.
+std::string toml_text(const TomlValue& value, std::size_t enough = std::string::npos);
 std::string toml_text(double number);
 std::string toml_text(const std::string& string);
 
