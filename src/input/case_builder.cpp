@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "input/nearest_key.hpp"
+#include "scene/extent.hpp"
 
 namespace cinch {
 
@@ -14,6 +15,7 @@ using Type = TomlValue::Type;
 constexpr double max_frames = 1e6, max_samples = 1e7,
                  max_steps = 1e12;  // a run beyond them is a slip of the pen
 constexpr double max_elements = 2e8;
+constexpr std::size_t max_parts = 20000;  // of a kind: they are found by name, one after the other
 
 std::vector<std::string> section_names() {
   std::vector<std::string> names;
@@ -81,6 +83,11 @@ void CaseBuilder::check_top_level() {
       const std::string form = "[" + member.key + ((*info)->named ? ".NAME]" : "]");
       fail(member.value.place,
            "'" + member.key + "': found " + describe(member.value) + ", allowed: a section " + form);
+    } else if ((*info)->named && member.value.members.size() > max_parts) {
+      fail(member.value.members[max_parts].key_place,
+           "the case has " + std::to_string(member.value.members.size()) + " [" + member.key +
+               ".NAME], allowed: <= " + std::to_string(max_parts));
+      diagnostics_.throw_if_any();
     } else if ((*info)->named) {
       for (const TomlMember& part : member.value.members) {
         const std::string path = member.key + "." + toml_key(part.key);
@@ -205,12 +212,13 @@ void CaseBuilder::check_size() {
   if (!diagnostics_.empty()) return;
   if (scene_.nets.empty() && scene_.threads.empty())
     fail({}, "the case has neither a [net.NAME] nor a [thread.NAME]");
-  double elements = 0;
-  for (const Thread& thread : scene_.threads) elements += thread.elements;
-  for (const Net& net : scene_.nets)
-    elements += (2.0 * net.columns() * net.rows() + net.columns() + net.rows()) * net.elements_per_side;
-  if (elements > max_elements)
-    fail({}, "the case has " + toml_text(elements) + " elements, allowed: <= " + toml_text(max_elements));
+  const Extent extent = extent_of(scene_);
+  if (static_cast<double>(extent.elements) <= max_elements) return;
+  Place place;  // of the part with most of them
+  for (const SectionValues& section : sections_)
+    if (diagnostics_.where(section.place) == extent.largest.text) place = section.place;
+  fail(place, "the case has " + std::to_string(extent.elements) +
+                  " elements, allowed: <= " + toml_text(max_elements) + " (this part has most of them)");
 }
 
 }  // namespace cinch

@@ -11,6 +11,7 @@ constexpr Range coordinate = {-1e6, 1e6, true};
 constexpr Range speed = {-1e5, 1e5, true};
 constexpr Range count = {1, 1e8, true};
 constexpr Range mass = {0, 1e6, true};
+constexpr Range body = {1e-12, 1e6, true};  // a mass by itself: its inverse must be a number
 constexpr Range thickness = {0, 10, false};
 const std::vector<std::string> supports = {"free", "guided", "fixed"};
 
@@ -35,7 +36,7 @@ std::vector<Key<Part>> ring_keys(Get get) {
        to(&Ring::wire_diameter)},
       {{.name = "mass_kg",
         .unit = "kg",
-        .range = above(0, 1e6),
+        .range = body,
         .required = true,
         .meaning = "Mass (Tables 1, 2 and 4 give three different ones)."},
        to(&Ring::mass)},
@@ -458,13 +459,13 @@ const Section<Mechanism>& mechanism_section() {
                 into(&Mechanism::corner)},
                {{.name = "launcher_mass_kg",
                  .unit = "kg",
-                 .range = above(0, 1e6),
+                 .range = body,
                  .required = true,
                  .meaning = "Mass of the launcher alone, after the separation."},
                 into(&Mechanism::launcher_mass)},
                {{.name = "split_mass_kg",
                  .unit = "kg",
-                 .range = above(0, 1e6),
+                 .range = body,
                  .required = true,
                  .meaning = "Mass of each of the two split masses."},
                 into(&Mechanism::split_mass)},

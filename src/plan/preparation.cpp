@@ -18,6 +18,10 @@ double greatest_safety(double damping_ratio) {
   return damping_ratio < 0.005 ? 0.1 : damping_ratio < 0.01 ? 0.2 : damping_ratio < 0.05 ? 0.3 : 1.0;
 }
 
+std::string place_of_step(const Scene& scene) {
+  return scene.time.source.text.empty() ? "" : scene.time.source.text + ": ";
+}
+
 // A step that fits whole numbers of times into the frame interval, below safety x bound.
 double automatic_step(const Scene& scene, double bound) {
   const double interval = scene.output.frame_interval;
@@ -28,18 +32,30 @@ double automatic_step(const Scene& scene, double bound) {
   return interval / std::ceil(interval / wanted);
 }
 
+// Sums of constants from 1e-60 to 1e60 can still give a step that leads nowhere.
+void check_number_of_steps(const Scene& scene, const Preparation& p) {
+  constexpr double most = 1e12;
+  if (p.dt > 0 && scene.time.end / p.dt <= most) return;
+  char text[400];
+  std::snprintf(
+      text, sizeof text,
+      "error: the stable step is %.3g s, limited by %s; that makes %.3g steps to %.6g s, allowed: at most "
+      "%.0e",
+      p.stable_step, p.limited_by.c_str(), scene.time.end / p.dt, scene.time.end, most);
+  throw CaseError(place_of_step(scene) + text);
+}
+
 void check_step(const Scene& scene, const Preparation& p) {
   if (scene.time.allow_unstable || p.dt <= p.stable_step) return;
   // four digits, rounded down: the step in the message must work
   const double digits = std::pow(10.0, std::floor(std::log10(p.stable_step)) - 3);
-  const std::string where = scene.time.source.text.empty() ? "" : scene.time.source.text + ": ";
   char text[400];
   std::snprintf(
       text, sizeof text,
       "error: time.step_s = %.6g s is above the stable step, limited by %s; the largest step that works is "
       "%.4g s (or time.step_s = \"auto\", or time.allow_unstable = true)",
       p.dt, p.limited_by.c_str(), std::floor(p.stable_step / digits) * digits);
-  throw CaseError(where + text);
+  throw CaseError(place_of_step(scene) + text);
 }
 
 }  // namespace
@@ -83,11 +99,12 @@ Preparation prepare(const Scene& scene) {
     }
   p.dt = scene.time.step > 0 ? scene.time.step : automatic_step(scene, p.stable_step);
   check_step(scene, p);
+  check_number_of_steps(scene, p);
   p.end_step = std::llround(scene.time.end / p.dt);
   // what closes after t = 0 was deployed first: for a step at least
   const bool deploys = p.phases.size() > 1;
-  if (closes)
-    p.closing_step = std::max<std::int64_t>(std::llround(scene.closing.time.value_or(0) / p.dt), deploys);
+  const double closing_steps = std::min(scene.closing.time.value_or(0) / p.dt, 9e18);
+  if (closes) p.closing_step = std::max<std::int64_t>(std::llround(closing_steps), deploys);
   for (Phase& phase : p.phases) phase.plan = plan_steps(scene, phase.model, p.dt);
   return p;
 }

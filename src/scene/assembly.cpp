@@ -6,15 +6,15 @@
 #include <numeric>
 
 #include "base/error.hpp"
+#include "base/machine.hpp"
+#include "scene/extent.hpp"
 #include "scene/fault.hpp"
 #include "scene/net_pattern.hpp"
+#include "scene/spring.hpp"
 #include "scene/threading.hpp"
 
 namespace cinch {
 namespace {
-
-/// Slots of runs are numbered, and an element may bring eight void ones: see topology.cpp.
-constexpr std::int64_t most_elements = std::numeric_limits<Index>::max() / 9;
 
 // "kind.name.place" -> {kind, name, place}; the place may hold further dots.
 struct Reference {
@@ -28,13 +28,6 @@ struct Reference {
     if (second != std::string::npos) place = text.substr(second + 1);
   }
 };
-
-double circle_area(double diameter) { return std::numbers::pi * diameter * diameter / 4; }
-
-// h of eq. (8)
-double compliance(double youngs_modulus, double poissons_ratio) {
-  return (1 - poissons_ratio * poissons_ratio) / (std::numbers::pi * youngs_modulus);
-}
 
 // Builds an Assembly part by part, in the order of the numbering.
 class Assembler {
@@ -71,21 +64,10 @@ class Assembler {
 
   // Room for all, so that nothing is moved while it grows. No thread shares so many nodes that it matters.
   void reserve() {
-    std::int64_t elements = 0;
-    for (const Net& net : scene_.nets) elements += NetPattern::elements(net);
-    for (const Mechanism& mechanism : scene_.mechanisms) elements += mechanism.towing_elements;
-    for (const Thread& thread : scene_.threads) elements += thread.elements;
-    if (elements > most_elements)
-      fail({}, "the scene has " + std::to_string(elements) + " elements, allowed: at most " +
-                   std::to_string(most_elements));
-    std::size_t nodes = scene_.threads.size() + 2 * scene_.mechanisms.size();
-    for (const Net& net : scene_.nets) nodes += static_cast<std::size_t>(NetPattern(net).nodes());
-    for (const Mechanism& mechanism : scene_.mechanisms)
-      nodes += static_cast<std::size_t>(mechanism.towing_elements);
-    for (const Thread& thread : scene_.threads) nodes += static_cast<std::size_t>(thread.elements);
-    for (const Ring& ring : scene_.rings) nodes += ring.host == RingHost::node;
-    out_.nodes.reserve(nodes);
-    out_.elements.reserve(static_cast<std::size_t>(elements));
+    const Extent extent = extent_of(scene_);
+    require_room(extent, machine_memory());
+    out_.nodes.reserve(static_cast<std::size_t>(extent.nodes));
+    out_.elements.reserve(static_cast<std::size_t>(extent.elements));
   }
 
   Index add_node(const Vec3& position, const Vec3& velocity) {
@@ -114,33 +96,14 @@ class Assembler {
     return found->second;
   }
 
-  // A spring-damper with its ends left open: those of a part are all alike.
-  struct Kind {
-    AssemblyElement element;
-    double mass;
-  };
-  static Kind kind_of(double rest_length, double diameter, const Material& m, Index part) {
-    const double mass = m.density * circle_area(diameter) * rest_length;
-    AssemblyElement e;
-    e.rest_length = rest_length;
-    e.stiffness = m.youngs_modulus * circle_area(diameter) / rest_length;
-    e.damping = m.damping_rule == DampingRule::element
-                    ? 2 * m.damping_ratio * std::sqrt(e.stiffness * mass)
-                    : 2 * m.damping_ratio / m.damping_frequency * e.stiffness;
-    e.radius = diameter / 2;
-    e.compliance = compliance(m.youngs_modulus, m.poissons_ratio);
-    e.part = part;
-    return {e, mass};
-  }
-
   // Half of an element's mass goes to each end (eq. (2)).
-  void add_element(Index a, Index b, const Kind& kind) {
-    AssemblyElement& e = out_.elements.emplace_back(kind.element);
+  void add_element(Index a, Index b, const Spring& spring) {
+    AssemblyElement& e = out_.elements.emplace_back(spring.element);
     e.a = a;
     e.b = b;
     out_.parts[static_cast<std::size_t>(e.part)].elements += 1;
-    node(a).mass += kind.mass / 2;
-    node(b).mass += kind.mass / 2;
+    node(a).mass += spring.mass / 2;
+    node(b).mass += spring.mass / 2;
   }
 
   void add_sphere(const Sphere& sphere, Index at, const std::string& name, Index part) {
@@ -174,8 +137,8 @@ class Assembler {
     });
     out_.parts.back().nodes.resize(static_cast<std::size_t>(pattern.nodes()));
     std::iota(out_.parts.back().nodes.begin(), out_.parts.back().nodes.end(), first);
-    const Kind element =
-        kind_of(net.mesh / net.elements_per_side, net.diameter, material(net.material, net.source), part);
+    const Spring element = spring_of(net.mesh / net.elements_per_side, net.diameter,
+                                     material(net.material, net.source), part, net.source);
     pattern.for_each_element([&](Index a, Index b) { add_element(first + a, first + b, element); });
     for (const auto& [place, spec] : net.nodes) {
       const Index at = pattern.place(place);
@@ -192,8 +155,9 @@ class Assembler {
     const Vec3 outward = from_center.normalized();
     const Index part = begin_part(PartKind::mechanism, mechanism.name);
     const double rest = mechanism.towing_length / mechanism.towing_elements;
-    const Kind element =
-        kind_of(rest, mechanism.towing_diameter, material(mechanism.towing_material, mechanism.source), part);
+    const Spring element =
+        spring_of(rest, mechanism.towing_diameter, material(mechanism.towing_material, mechanism.source),
+                  part, mechanism.source);
     std::vector<Index> nodes{corner};
     for (int k = 1; k <= mechanism.towing_elements; ++k) {
       const Vec3 at = node(corner).position + k * rest * mechanism.initial_stretch * outward;
@@ -238,7 +202,8 @@ class Assembler {
       const bool shared = spec != nullptr && !spec->on.empty();
       nodes.push_back(shared ? node_of(spec->on, spec->source) : add(k));
     }
-    const Kind element = kind_of(rest, thread.diameter, material(thread.material, thread.source), part);
+    const Spring element =
+        spring_of(rest, thread.diameter, material(thread.material, thread.source), part, thread.source);
     for (int k = 0; k < thread.elements; ++k) {
       const Index a = nodes[static_cast<std::size_t>(k)], b = nodes[static_cast<std::size_t>(k) + 1];
       if (a == b)
@@ -253,10 +218,13 @@ class Assembler {
 
   void add_thread(const Thread& thread) {
     std::vector<double> reach{0};
-    for (std::size_t p = 1; p < thread.points.size(); ++p)
+    for (std::size_t p = 1; p < thread.points.size(); ++p) {
       reach.push_back(reach.back() + (thread.points[p] - thread.points[p - 1]).norm());
-    if (reach.back() <= 0)
-      fail(thread.source, "thread '" + thread.name + "' has points_m of total length 0 m");
+      if (!(reach[p] > reach[p - 1]))
+        fail(thread.source, "thread '" + thread.name + "': points " + std::to_string(p) + " and " +
+                                std::to_string(p + 1) +
+                                " of points_m are too close to each other for the thread's length");
+    }
     const double length = thread.length > 0 ? thread.length : reach.back();
     add_thread_nodes(thread, length / thread.elements, [&](int k) {
       const double s = reach.back() * k / thread.elements;
@@ -496,7 +464,8 @@ class Assembler {
       for (const Ring& ring : scene_.rings)
         if (ring.name == at.name && ring.host == RingHost::node) return ring_node(ring);
     } else if (at.kind == "thread") {
-      if (const Part* part = find_part(PartKind::thread, at.name)) {
+      // a thread that is just being laid has no nodes yet, not even for itself
+      if (const Part* part = find_part(PartKind::thread, at.name); part && !part->nodes.empty()) {
         if (at.place == "start") return part->nodes.front();
         if (at.place == "end") return part->nodes.back();
         for (std::size_t k = 0; k < part->nodes.size(); ++k)

@@ -27,6 +27,11 @@ std::int64_t NetPattern::elements(const Net& net) {
   return net.elements_per_side * (columns * (rows + 1) + rows * (columns + 1));
 }
 
+std::int64_t NetPattern::nodes(const Net& net) {
+  const std::int64_t columns = net.columns(), rows = net.rows();
+  return elements(net) - columns * rows + 1;  // Euler: knots and inner nodes - elements + meshes = 1
+}
+
 std::vector<Index> NetPattern::edge(const std::string& name) const {
   std::vector<Index> nodes;
   if (name == "top" || name == "bottom") {

@@ -21,6 +21,7 @@ class NetPattern {
   Index nodes() const { return rows_ * row_stride_ + columns_ + 1 + sub_inner() * columns_; }
   /// Of any net, even of one too large to be numbered.
   static std::int64_t elements(const Net& net);
+  static std::int64_t nodes(const Net& net);
   /// Node of horizontal side (column i, row j), k = 0 (left knot) .. elements_per_side (right knot).
   Index horizontal(Index i, Index j, Index k) const;
   /// Node of the vertical side above knot (i, j), k = 0 (lower knot) .. elements_per_side (upper knot).
