@@ -192,6 +192,47 @@ TEST_F(Program, AStepAboveTheBoundIsRefused) {
       << err();
 }
 
+TEST_F(Program, HostileCasesEndWithTwoAndWriteNothing) {
+  const std::vector<std::pair<std::string, std::string>> cases{
+      {with("elements = 100", "elements = 1000000000000"), "bad.toml:16:12: error: thread.main.elements"},
+      {with("[[0, -0.1, 0], [0, 0.4, 0]]", "[[0, 0, 0], [1e308, 0, 0]]"), "bad.toml:17:25: error: "},
+      {with("end_s = 0.001", "end_s = 1e999"), "bad.toml:5:"},
+      {with("start = {", "start = { on = \"thread.main.end\", "), "bad.toml:19:1: error: there is no node"},
+      {with("diameter_m = 0.002", "diameter_m = 1e-200"), "bad.toml:13:9: error: elements of length"},
+      {"schema = 1\nx = " + std::string(100000, '['), "bad.toml:2:"},
+      {std::string("\x7f"
+                   "ELF\0\0",
+                   6),
+       "bad.toml:1:5: error: the file contains a NUL byte"},
+      {"", "bad.toml:1:1: error: missing key 'schema'"},
+      {std::string(100000000, ' '), "bad.toml: error: the file is larger than"},
+  };
+  for (const auto& [text, message] : cases) {
+    SCOPED_TRACE(message);
+    write("bad.toml", text);
+    EXPECT_EQ(run({"check", "bad.toml"}), 2);
+    EXPECT_TRUE(has(err(), message)) << err();
+    EXPECT_EQ(run({"run", "bad.toml", "--out", "r"}), 2);
+    EXPECT_TRUE(has(err(), message)) << err();
+  }
+  EXPECT_EQ(run({"run", ".", "--out", "r"}), 2);
+  EXPECT_TRUE(has(err(), "is a directory")) << err();
+  EXPECT_FALSE(fs::exists(path("r")));
+}
+
+// More steps than can be counted lie between two frames; the run is over long before.
+TEST_F(Program, AFrameIntervalFarBeyondTheEnd) {
+  const pid_t child = start({"run", "tiny.toml", "--set", "time.end_s=1e-11", "--set", "time.step_s=1e-14",
+                             "--set", "output.frame_interval_s=1e6", "--out", "r", "--quiet"});
+  for (int k = 0; k < 200 && !fs::exists(path("r/summary.json")); ++k)
+    std::this_thread::sleep_for(std::chrono::milliseconds(50));
+  kill(child, SIGKILL);  // too late where all is well
+  wait_for(child);
+  ASSERT_TRUE(fs::exists(path("r/summary.json"))) << "not done within 10 s";
+  EXPECT_EQ(summary("r").at("steps"), 1000);
+  EXPECT_EQ(cinch::Result(path("r")).frames(), 2);
+}
+
 TEST_F(Program, UsageErrors) {
   EXPECT_EQ(run({}), 2);
   EXPECT_EQ(run({"simulate", "tiny.toml"}), 2);

@@ -1,5 +1,6 @@
 // Steps at which something is due: the k-th is the one nearest to k times an interval.
 #pragma once
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <limits>
@@ -12,7 +13,8 @@ class Schedule {
   Schedule(double interval, double dt) : interval_(interval), dt_(dt) {}
   std::int64_t next() const {
     if (interval_ <= 0) return std::numeric_limits<std::int64_t>::max();
-    return std::llround(static_cast<double>(count_) * interval_ / dt_);
+    // an interval far beyond the end may be more steps than can be counted
+    return std::llround(std::min(static_cast<double>(count_) * interval_ / dt_, 9e18));
   }
   /// Whether it is due at `step`; from then on the next one is.
   bool due(std::int64_t step) {
