@@ -31,7 +31,7 @@ class PreScan {
   explicit PreScan(std::string_view text) : text_(text) {}
 
   std::string run() {
-    if (text_.size() > max_case_size) throw TomlError{{1, 1}, "the file is larger than 4 MiB"};
+    if (text_.size() > max_resolved_size) throw TomlError{{1, 1}, "the case is larger than 64 MiB"};
     if (text_.substr(0, 3) == "\xEF\xBB\xBF") text_.replace(0, 3, "   ");  // byte order mark
     for (at_ = 0; at_ < text_.size(); ++at_) {
       const char c = text_[at_];

@@ -47,6 +47,8 @@ struct TomlError {
 /// Bytes of a case file: a hundred thousand points of a thread. A value takes about a hundred times the
 /// memory of its text, so this bounds what a broken file can cost.
 constexpr std::size_t max_case_size = 4u << 20;
+/// Bytes of a case with every default written out, as checkpoints hold it.
+constexpr std::size_t max_resolved_size = 16 * max_case_size;
 
 /// Parses a document. Only ASCII is accepted outside of comments; throws TomlError.
 TomlValue parse_toml(std::string_view text);
