@@ -1,9 +1,8 @@
 // Case files that are meant to break the reader: too large, too deep, of the wrong type, of the wrong bytes.
-// Each is refused within a second, by an error that names the place, or read to the end.
+// Each is refused by an error that names the place, or read to the end.
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <ctime>
 #include <filesystem>
 #include <fstream>
 
@@ -39,16 +38,9 @@ std::string error_of(const std::string& text, const std::vector<Override>& overr
 
 bool has(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
 
-// Refused within a second (sanitizers: some), all pieces in the error.
+// Refused with all pieces in the error. What hangs ends by the time limit that ctest gives each test.
 void expect_refused(const std::string& text, const std::vector<std::string>& pieces) {
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-  constexpr double limit = 10;
-#else
-  constexpr double limit = 1;
-#endif
-  const std::clock_t begin = std::clock();  // the processor's time: others may use the machine
   const std::string error = error_of(text);
-  EXPECT_LT(static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC, limit) << error.substr(0, 300);
   EXPECT_LT(error.size(), 50000u);
   for (const std::string& piece : pieces)
     EXPECT_TRUE(has(error, piece)) << "missing: " << piece << "\nin: " << error;
