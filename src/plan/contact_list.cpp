@@ -114,7 +114,11 @@ void begin_tallies(std::vector<kernel::BallTally>& tallies, std::size_t pairs) {
 }  // namespace
 
 ContactList::ContactList(const Model& model, double margin)
-    : margin_(margin > 0 ? margin : automatic_margin(model)), trees_(model.contact_sets.size()) {}
+    : margin_(margin > 0 ? margin : automatic_margin(model)), trees_(model.contact_sets.size()) {
+  for (std::size_t r = 0; r < model.rings.size(); ++r)
+    if (model.ring_host_length[r] > 0)
+      turning_ = std::max(turning_, 1 + model.rings[r].radius / model.ring_host_length[r]);
+}
 
 void ContactList::rebuild(const Model& model, State& state) {
   ++rebuilds_;

@@ -29,6 +29,9 @@ class ContactList {
   void transfer(Archive& archive, const Model& model);
 
   double margin() const { return margin_; }
+  /// Two surfaces come closer by at most so many times what the greatest speed tells: wires of rings turn
+  /// with the elements that carry them, which may be shorter than the rings.
+  double turning() const { return turning_; }
   /// No pair that approaches by less within a step can pass through each other unnoticed, m.
   double longest_approach() const { return longest_approach_; }
   std::int64_t rebuilds() const { return rebuilds_; }
@@ -46,7 +49,7 @@ class ContactList {
 
   void find_longest_approach();
 
-  double margin_;
+  double margin_, turning_ = 1;
   double longest_approach_ = std::numeric_limits<double>::infinity();
   std::vector<BoxTree> trees_;  ///< contact set
   std::vector<Index> found_;

@@ -125,8 +125,8 @@ void Stepper::renew_contacts(State& state) {
 }
 
 void Stepper::judge(double greatest, Progress& p) const {
-  // two items approach each other by at most twice the greatest speed
-  const double approach = 2 * plan_.dt * std::sqrt(greatest);
+  // two nodes approach each other by at most twice the greatest speed
+  const double approach = 2 * contacts_.turning() * plan_.dt * std::sqrt(greatest);
   p.motion += approach;
   if (!(p.motion < contacts_.margin())) p.verdict = Verdict::renew_contacts;
   if (approach > contacts_.longest_approach()) p.verdict = Verdict::look_closer;
