@@ -61,8 +61,15 @@ void check_contact_energy(const Preparation& preparation, const State& state, do
 
 namespace {
 
+enum class With { ring, target };
+
+std::string label_of(const Preparation& preparation, With with, std::size_t number) {
+  return with == With::ring ? "ring '" + preparation.assembly.rings[number].name + "'"
+                            : "target '" + preparation.assembly.balls[number].name + "'";
+}
+
 template <class Tally>
-void check_stiffness(const Preparation& preparation, const std::string& with, const Tally& tally) {
+void check_stiffness(const Preparation& preparation, With with, std::size_t number, const Tally& tally) {
   if (!(tally.stiffest > 1)) return;
   char text[500];
   std::snprintf(
@@ -70,14 +77,15 @@ void check_stiffness(const Preparation& preparation, const std::string& with, co
       "error: at t = %.9g s the contact of %s with %s needed %.3g times what the stable step leaves; "
       "likely cause: an impact too hard for the time step %.3g s (or an overlap at the start); a step of "
       "%.2g s would carry it",
-      tally.stiffest_time, label_of(preparation, tally.stiffest_element).c_str(), with.c_str(),
-      tally.stiffest, preparation.dt, preparation.dt / tally.stiffest * 0.9);
+      tally.stiffest_time, label_of(preparation, tally.stiffest_element).c_str(),
+      label_of(preparation, with, number).c_str(), tally.stiffest, preparation.dt,
+      preparation.dt / tally.stiffest * 0.9);
   throw NumericalError(text);
 }
 
 // `distance`: at which the thinnest of what touches would be through.
 template <class Tally>
-void check_depth(const Preparation& preparation, const State& state, const std::string& with,
+void check_depth(const Preparation& preparation, const State& state, With with, std::size_t number,
                  const Tally& tally, double distance) {
   if (!(tally.max_penetration > pressed_share * distance)) return;
   char text[500];
@@ -87,7 +95,7 @@ void check_depth(const Preparation& preparation, const State& state, const std::
       "would be through; likely cause: a contact too soft for the pull, or a time step too long for "
       "an impact (%.3g s)",
       static_cast<double>(state.step) * preparation.dt, label_of(preparation, tally.stiffest_element).c_str(),
-      tally.max_penetration, with.c_str(), distance, preparation.dt);
+      tally.max_penetration, label_of(preparation, with, number).c_str(), distance, preparation.dt);
   throw NumericalError(text);
 }
 
@@ -96,23 +104,20 @@ void check_depth(const Preparation& preparation, const State& state, const std::
 void check_contacts(const Preparation& preparation, const Model& model, const State& state) {
   for (std::size_t r = 0; r < state.rings.size(); ++r) {
     if (model.slides(r)) continue;
-    const std::string name = "ring '" + preparation.assembly.rings[r].name + "'";
-    check_stiffness(preparation, name, state.rings[r]);
-    check_depth(preparation, state, name, state.rings[r],
+    check_stiffness(preparation, With::ring, r, state.rings[r]);
+    check_depth(preparation, state, With::ring, r, state.rings[r],
                 model.ring_wire_radius[r] + model.contact_sets[at(model.ring_set[r])].thinnest);
   }
   for (std::size_t b = 0; b < state.balls.size(); ++b)
     for (const kernel::BallTally& tally : state.balls[b]) {
-      const std::string name = "target '" + preparation.assembly.balls[b].name + "'";
-      check_stiffness(preparation, name, tally);
-      check_depth(preparation, state, name, tally, model.balls[b].radius);
+      check_stiffness(preparation, With::target, b, tally);
+      check_depth(preparation, state, With::target, b, tally, model.balls[b].radius);
     }
 }
 
 void report_jump(const Preparation& preparation, const State& state, const Jump& jump) {
   const auto with = at(jump.pair.with);
-  const std::string name = jump.ring ? "ring '" + preparation.assembly.rings[with].name + "'"
-                                     : "target '" + preparation.assembly.balls[with].name + "'";
+  const std::string name = label_of(preparation, jump.ring ? With::ring : With::target, with);
   const double allowed = jump_share * jump.pair.contact_distance;
   char text[600];
   std::snprintf(

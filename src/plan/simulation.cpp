@@ -140,7 +140,7 @@ void Simulation::start() {
   remember();
   ledger_.open(begin, m, state_, work);
   ring_start_ = look().ring_centers();
-  threadings_.begin(look_);
+  threadings_.begin(look_, stepper_->contacts());
   if (needs_node_start(scene_)) node_start_ = look_.positions();
   // rings along one straight edge are no mouth: their hull has next to no area
   const double spread = mouth_spread(ring_start_);
@@ -173,7 +173,7 @@ void Simulation::close() {
   const Energies separated = look().energy();
   ledger_.book_closing(before, after, laid, separated, state_, before_model, model());
   remember();
-  threadings_.begin(look());
+  threadings_.begin(look(), stepper_->contacts());
   ledger_.book_supports(
       {held.linear - free.linear, Vec3::Zero()});  // the angular part is in book_closing's difference
   for (const Mechanism& mechanism : scene_.mechanisms)
@@ -270,7 +270,7 @@ std::vector<double> Simulation::probe_row(const Look& now) {
 
 // All that have been lost are noted before one stops the run.
 void Simulation::note_losses(const Look& now) {
-  const std::vector<ThreadingWatch::Loss> losses = threadings_.losses(now);
+  const std::vector<ThreadingWatch::Loss> losses = threadings_.losses(now, stepper_->contacts());
   for (const ThreadingWatch::Loss& loss : losses)
     events_.push_back({now.time(), "thread_left",
                        preparation_.assembly.rings[at(loss.ring)].name + ": " +

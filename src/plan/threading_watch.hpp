@@ -6,6 +6,7 @@
 #pragma once
 #include <vector>
 
+#include "plan/contact_list.hpp"
 #include "plan/look.hpp"
 
 namespace cinch {
@@ -19,10 +20,11 @@ class ThreadingWatch {
   };
 
   /// Also watches, from now on, the threads that pass through a ring in this look and were not there before.
-  void begin(const Look& now);
+  /// `contacts`: those of that look; what goes through a ring is near it.
+  void begin(const Look& now, const ContactList& contacts);
   /// Those lost since the last look, which is some thousand steps ago or more (else it does not look again);
   /// they are watched no more.
-  std::vector<Loss> losses(const Look& now);
+  std::vector<Loss> losses(const Look& now, const ContactList& contacts);
   bool empty() const { return watched_.empty(); }
   /// `elements`: those of the scene now.
   void transfer(Archive& archive, const Assembly& assembly, Index elements);
