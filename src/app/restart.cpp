@@ -53,8 +53,8 @@ void Account::transfer(Archive& archive) {
 
 Restart::Restart(const fs::path& path)
     : checkpoint_(path),
-      folder_(checkpoint_.path().parent_path()),
-      earlier_(folder_.empty() ? "." : folder_) {}
+      folder_(checkpoint_.path().has_parent_path() ? checkpoint_.path().parent_path() : fs::path(".")),
+      earlier_(folder_) {}
 
 Scene Restart::scene(const std::vector<Override>& overrides) {
   for (const Override& change : overrides) require_changeable(change);

@@ -90,7 +90,8 @@ class Run {
       status = "failed";
       message = error.what();
     }
-    if (stop_signal() != 0) status = stop_signal() == SIGTERM ? "terminated" : "interrupted";
+    if (status == "done" && stop_signal() != 0)
+      status = stop_signal() == SIGTERM ? "terminated" : "interrupted";
     if (status != "failed" && scene_.output.checkpoint) keep();
     record_last_frame();
     progress_.finish();
@@ -234,7 +235,8 @@ int run(const RunArguments& arguments) {
                            : read_case(arguments.scene.file, arguments.scene.overrides);
   const fs::path folder =
       from && arguments.out.empty() ? from->folder() : result_folder(arguments, scene.name);
-  if (from && !arguments.quiet && !from->doubt().empty()) std::cerr << "warning: " << from->doubt() << "\n";
+  const std::string doubt = from && !arguments.quiet ? from->doubt() : "";
+  if (!doubt.empty()) std::cerr << "warning: " << doubt << "\n";
   watch_signals();
   Run one(scene, arguments.scene.threads, folder, arguments.quiet, from ? &*from : nullptr);
   const Summary summary = one.go();
