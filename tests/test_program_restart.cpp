@@ -34,7 +34,7 @@ TEST_F(Restarted, IsTheSameAsOneRun) {
   ASSERT_EQ(run(begin("0.001", "whole")), 0) << err();
   ASSERT_EQ(run(begin("0.00043", "r")), 0) << err();  // no time of a frame
   ASSERT_EQ(run(go_on("0.000777", "r")), 0) << err();
-  Words last = go_on("0.001", "r/checkpoint.h5");
+  Words last = go_on("0.001", "r/checkpoint.h5");  // the file by name
   last.insert(last.end(), {"--threads", "2"});
   ASSERT_EQ(run(last), 0) << err();
   EXPECT_TRUE(same("whole", "r"));
@@ -44,6 +44,13 @@ TEST_F(Restarted, IsTheSameAsOneRun) {
   EXPECT_EQ(cinch::Result(path("r")).frames(), 11);
   EXPECT_EQ(cinch::Result(path("r")).probe_times().size(), 21u);
   EXPECT_FALSE(fs::exists(path("r/run.vtkhdf.tmp")));
+}
+
+TEST_F(Restarted, FromWithinItsFolder) {
+  ASSERT_EQ(run(begin("0.001", "whole")), 0) << err();
+  ASSERT_EQ(run(begin("0.0004", ".")), 0) << err();
+  ASSERT_EQ(run(go_on("0.001", "checkpoint.h5")), 0) << err();
+  EXPECT_TRUE(same("whole", "."));
 }
 
 TEST_F(Restarted, ElsewhereLeavesWhatItGoesOnFrom) {
