@@ -53,7 +53,7 @@ Drawn draw(Family family, unsigned seed) {
   Dice dice(seed);
   if (family == Family::graph) return draw_graph(dice);
   Scene scene = draw_scene(dice, family);
-  scene.time.end = 1e-6;  // some have steps so short that a second of them would be refused
+  scene.time.end = 1e-12;  // some have steps so short that a second of them would be refused
   Preparation p = prepare(scene);
   return {std::move(p.phases.front().model), places(p.assembly)};
 }
