@@ -146,7 +146,7 @@ TEST(Health, TheEnergyLimitIsTheCases) {
   EXPECT_EQ(energy_fault(scene), "");
 }
 
-// ---- contacts that hold or take less than nothing
+// ---- contacts side by side
 
 // A net of 3 x 3 knots that lies flat in the wall of a ball so large that all of it sinks in alike.
 Scene sunken_net() {
@@ -170,48 +170,15 @@ youngs_modulus_Pa = 1e3
 )");
 }
 
-std::string contact_fault(const Scene& scene) {
-  Simulation sim(scene, 1);
-  try {
-    sim.advance_to(1);
-    sim.check_energy(sim.look());
-  } catch (const NumericalError& error) {
-    return error.what();
-  }
-  return "";
-}
-
 double contact_energy(SharedNode rule) {
   Scene scene = sunken_net();
   scene.contact.shared_node = rule;
   return Simulation(scene, 1).look().energy().contact;
 }
 
-// Of 48 elements, the 36 nodes between two take one contact each, the 9 knots 4 x 1 + 4 x 2 + 3.
-TEST(Health, ANetThatSinksInAsAWholeHoldsLessThanNothing) {
-  // depths differ by 1 %
-  EXPECT_NEAR(contact_energy(SharedNode::once) / contact_energy(SharedNode::paper), (48 - 36 - 15) / 48.0,
-              2e-3);
-}
-
-TEST(Health, ContactsThatHoldLessThanNothingStopTheRun) {
-  const std::string fault = contact_fault(sunken_net());
-  for (const char* piece : {"at t = ", "the contacts with target 'wall' hold -", "less than nothing: -",
-                            "(time.residual_limit = 0.05)", "first of all element ", "of net.main (nodes ",
-                            "contact.shared_node"})
-    EXPECT_NE(fault.find(piece), std::string::npos) << piece << " in: " << fault;
-}
-
-TEST(Health, ContactsThatEachElementCountsHoldSomething) {
-  Scene scene = sunken_net();
-  scene.contact.shared_node = SharedNode::paper;
-  EXPECT_EQ(contact_fault(scene), "");
-}
-
-TEST(Health, TheLimitOfContactEnergyIsTheCases) {
-  Scene scene = sunken_net();
-  scene.time.residual_limit = 1e6;
-  EXPECT_EQ(contact_fault(scene), "");
+// 48 elements, and 45 nodes: depths differ by 1 %, elements sink in by no more than their deeper ends.
+TEST(Health, ANetThatSinksInAsAWholeHoldsWhatItsNodesHold) {
+  EXPECT_NEAR(contact_energy(SharedNode::once) / contact_energy(SharedNode::paper), 45 / 48.0, 2e-3);
 }
 
 TEST(Health, ASceneWithoutEnergyIsNotWarnedOfItsRounding) {

@@ -59,6 +59,14 @@ Sets small_large_capture(const std::string& closing_time) {
   return sets;
 }
 
+// Elements shorter than the wire is thick, pulled into it: many touch with both ends.
+const Sets fine_and_soft{{"thread.main.elements", "1000"}, {"material.thread.youngs_modulus_Pa", "1e7"}};
+
+// A target that nodes sink into side by side.
+const Sets sinking_net{{"net.main.elements_per_side", "8"},
+                       {"target.ball.center_m", "[0.05, 0, 0.1475]"},
+                       {"target.ball.youngs_modulus_Pa", "1e5"}};
+
 // ----------------------------------------------------------------------------------------------------
 // From the solver to the oracle
 
@@ -274,6 +282,8 @@ const std::vector<Meeting>& meetings() {
       {"edge_closure", {}, 0.1, 2, 60},
       {"capture", near_capture("0.0005"), 0.012, 4, 8},
       {"capture", near_capture("0.0005"), 0.05, 3, 8},
+      {"ring_pull", fine_and_soft, 0.02, 1, 200},
+      {"capture", near_capture("0.0005") + sinking_net, 0.012, 4, 8},
       {"large_capture", small_large_capture("0.0005"), 0.002, 4, 20},
       {"large_capture", small_large_capture("0.0005"), 0.01, 3, 20},
   };

@@ -131,20 +131,47 @@ Tiny forked_thread_on_ring(bool on_element, Random& random) {
   return tiny;
 }
 
+/// Nodes 1 mm apart, askew on the ring, with a branch at the middle one: most elements touch with both ends.
+Tiny fine_thread_on_ring(Random& random) {
+  Tiny tiny;
+  const auto near = [&](double x, double y, double z) {
+    return tiny.node(Vec3(x, y, z) + random.vector(2e-4), random.vector(2));
+  };
+  const Index own = near(0, 0, 0);
+  Index last = near(0.0083, -0.004, 0), middle = last;
+  for (int i = 1; i <= 8; ++i) {
+    const Index next = near(0.0083, 0.001 * (i - 4), 0.0002 * i);
+    tiny.element(last, next, 0, 0.95, 1000, 0.2);
+    if (i == 4) middle = next;
+    last = next;
+  }
+  tiny.element(middle, near(0.0088, 0, 0.003), 0, 0.95, 1000, 0.2);
+  tiny.ring_on_node(own, Vec3(0.05, 1, -0.04).normalized());
+  return tiny;
+}
+
+/// The same on a ball.
+Tiny fine_thread_on_ball(Random& random) {
+  Tiny tiny = fine_thread_on_ring(random);
+  tiny.assembly.rings.clear();
+  tiny.assembly.balls.push_back({"ball", Vec3(0.0583, 0, 0), 0.05, 1e-8, {0}, {}});
+  return tiny;
+}
+
 double potential(const Oracle& oracle, const Field& x) {
   const Evaluation e = oracle.evaluate(x, Field(x.size(), Vec3::Zero()));
   return e.elastic + e.contact + e.gravitational;
 }
 
 /// Greatest difference of force and negative gradient of the potential over all nodes, at rest.
-double gradient_error(const Tiny& tiny) {
+double gradient_error(const Tiny& tiny, double h = 1e-7) {
   const Oracle oracle = tiny.started();
   Field x = tiny.positions();
   const Field force = oracle.evaluate(x, Field(x.size(), Vec3::Zero())).force;
   double worst = 0;
   for (std::size_t i = 0; i < x.size(); ++i) {
     for (int axis = 0; axis < 3; ++axis) {
-      const double h = 1e-7, middle = x[i][axis];
+      const double middle = x[i][axis];
       x[i][axis] = middle + h;
       const double up = potential(oracle, x);
       x[i][axis] = middle - h;
@@ -157,11 +184,10 @@ double gradient_error(const Tiny& tiny) {
 }
 
 /// Power of all forces + rate of the potentials + losses: zero when penetration rates and forces agree.
-double power_error(const Tiny& tiny) {
+double power_error(const Tiny& tiny, double h = 1e-8) {
   const Oracle oracle = tiny.started();
   const Field x = tiny.positions(), v = tiny.velocities();
   const Evaluation e = oracle.evaluate(x, v);
-  const double h = 1e-8;
   Field before = x, after = x;
   double power = e.damper_power() + e.contact_power;
   for (std::size_t i = 0; i < x.size(); ++i) {
@@ -429,8 +455,50 @@ TEST(Oracle, ContactInsideOneElementHidesItsNeighboursEnd) {
   EXPECT_NEAR(one.contact, two.contact, 1e-13);
 }
 
+TEST(Oracle, NodesSideBySideCountOnceEach) {
+  // on the plane x = 0.0085, three nodes at the same depth; nothing between them is deeper
+  Tiny tiny;
+  tiny.assembly.balls.push_back({"ball", Vec3(-1000, 0, 0), 1000, 1e-8, {0}, {}});
+  for (int i = -1; i <= 1; ++i) tiny.node({0.0005, 0.001 * i, 0});
+  const double node = [&] {
+    Tiny one = tiny;
+    one.element(0, one.node({0.1, 0, 0}));
+    return one.evaluated().contact;
+  }();
+  tiny.element(0, 1), tiny.element(1, 2);
+  EXPECT_GT(node, 0);
+  EXPECT_NEAR(tiny.evaluated().contact / node, 3, 2e-5);  // the ball's curvature
+}
+
+TEST(Oracle, ContactEnergyHasNoJumpWhereTheDeeperEndChanges) {
+  Tiny tiny =
+      ring_and_thread({{0.0083, -0.006, 0}, {0.0083, -0.0005, 0}, {0.0083, 0.0005, 0}, {0.0083, 0.006, 0}});
+  const auto energy = [&](double tilt) {
+    tiny.assembly.nodes[2].position.x() = 0.0083 + tilt;
+    tiny.assembly.nodes[3].position.x() = 0.0083 - tilt;
+    return tiny.evaluated().contact;
+  };
+  const double level = energy(0);
+  for (const double tilt : {1e-9, 1e-12}) {
+    EXPECT_NEAR(energy(tilt) / level, 1, 1e4 * tilt) << tilt;
+    EXPECT_NEAR(energy(-tilt) / level, 1, 1e4 * tilt) << tilt;
+  }
+}
+
 // ----------------------------------------------------------------------------------------------------
 // Forces are gradients, powers balance, momentum stays
+
+TEST(Oracle, ForcesOfManyNodesInContactAreGradientsAndTheirDampersTake) {
+  Random random;
+  for (int trial = 0; trial < 40; ++trial) {
+    const Tiny tiny = trial % 2 == 0 ? fine_thread_on_ring(random) : fine_thread_on_ball(random);
+    const Evaluation now = tiny.evaluated();
+    ASSERT_GE(now.contacts, 4) << trial;
+    EXPECT_LT(gradient_error(tiny, 1e-9), 1e-3) << trial;  // where a closest point leaves an end, slopes turn
+    EXPECT_GT(now.contact_power, 0) << trial;
+    EXPECT_NEAR(power_error(tiny, 1e-10), 0, 1e-3) << trial;
+  }
+}
 
 TEST(Oracle, ForcesAreTheGradientOfThePotentials) {
   Random random;
@@ -539,12 +607,12 @@ TEST(Oracle, EnergyBalanceClosesWithTheStep) {
 // ----------------------------------------------------------------------------------------------------
 // Ball: impact
 
-/// A rigid-moving element of 10 g meets a ball head-on at 1 m/s.
+/// An element of 10 g meets a ball head-on at 1 m/s; its ends pass by.
 Tiny impact(double alpha) {
   Tiny tiny(2e-6);
   const double far = 0.15 + 0.001 + 1e-5;
-  tiny.node({-far, -0.002, 0}, {1, 0, 0}, 0.005);
-  tiny.node({-far, 0.002, 0}, {1, 0, 0}, 0.005);
+  tiny.node({-far, -0.05, 0}, {1, 0, 0}, 0.005);
+  tiny.node({-far, 0.05, 0}, {1, 0, 0}, 0.005);
   tiny.element(0, 1, 0, 1.5);
   tiny.assembly.elements[0].compliance = 1e-6;
   tiny.assembly.balls.push_back({"ball", Vec3::Zero(), 0.15, 1e-6, {0}, {}});

@@ -165,7 +165,7 @@ TEST(Models, KeepEveryElementsNumbers) {
   EXPECT_NEAR(a.elements.front().damping, 2 * 0.106 * std::sqrt(2.733185609e6 * net_element), 1e-7);
 }
 
-TEST(Models, ContactSetsLeaveOutRepeatedNodes) {
+TEST(Models, ContactSetsShareNodesOut) {
   const Scene scene = read("capture");
   const Assembly a = assemble(scene);
   const Model m = build_model(a, scene, Stage::closing);
@@ -177,15 +177,15 @@ TEST(Models, ContactSetsLeaveOutRepeatedNodes) {
     const Index e = threads.elements[i];
     const auto of = [&](Index node) {
       for (const Lay& lay : a.lays)
-        if (lay.node == node && lay.jump != Vec3::Zero()) return 0.0;
+        if (lay.node == node && lay.jump != Vec3::Zero()) return 1.0;
       return 0.5;
     };
-    ASSERT_EQ(threads.weight_a[i], of(m.end_a[at(e)]))
+    ASSERT_EQ(threads.fraction_a[i], of(m.end_a[at(e)]))
         << "a split mass ends one thread, inside two elements meet";
-    ASSERT_EQ(threads.weight_b[i], of(m.end_b[at(e)]));
+    ASSERT_EQ(threads.fraction_b[i], of(m.end_b[at(e)]));
   }
   const Model as_paper = build_model(a, read("capture", {{"contact.shared_node", "paper"}}), Stage::closing);
-  for (const double weight : as_paper.contact_sets.front().weight_a) ASSERT_EQ(weight, 0);
+  for (const double fraction : as_paper.contact_sets.front().fraction_a) ASSERT_EQ(fraction, 0);
 }
 
 // ----------------------------------------------------------------------------------------------------

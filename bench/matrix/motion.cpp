@@ -87,14 +87,17 @@ void add_places(std::vector<Cell>& cells, Extent extent) {
     cells.push_back(scene_cell(place.parameter, place.value, place.must, place.make, {steps}, {}));
 }
 
-/// A heavy net on a ball that gives way: many elements and their nodes sink in together.
+/// A heavy net on a ball that gives way: many elements and their nodes sink in together. With damping, the
+/// impact of a corner on a hard ball is more than a step of the net carries.
 void add_pressed_nets(std::vector<Cell>& cells) {
   for (const double alpha : {0.0, 0.05})
     for (const int elements : {1, 10})
       for (const double modulus : {1e5, 1e7, 2.3e9}) {
         const std::string value =
             words(modulus) + " Pa, " + std::to_string(elements) + ", " + words(alpha) + " s/m";
-        Cell cell = scene_cell("net on a ball, its modulus, elements of a side, alpha", value, Must::either,
+        const bool hard = alpha > 0 && elements > 1 && modulus > 1e6;
+        Cell cell = scene_cell("net on a ball, its modulus, elements of a side, alpha", value,
+                               hard ? Must::either : Must::hold,
                                [=] { return net_on_ball(modulus, elements, alpha); }, {}, {"net.main"});
         cell.run = [=] {
           const Scene scene = net_on_ball(modulus, elements, alpha);

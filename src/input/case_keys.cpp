@@ -233,8 +233,8 @@ const Section<Contact>& contact_section() {
             .words = {"once", "paper"},
             .fallback = "\"once\"",
             .by_method = {{"paper", "\"paper\""}},
-            .meaning = "A contact at a node shared by two elements: counted once, or by each (0 <= t <= 1, "
-                       "Sec. 4.1).",
+            .meaning = "A contact at a node shared by elements: counted once, beside what an element "
+                       "sinks in deeper than its ends, or by each element (0 <= t <= 1, Sec. 4.1).",
             .source = "the paper's rule doubles the force at nodes"},
            into(&Contact::shared_node)},
           {{.name = "leaving",

@@ -122,7 +122,7 @@ struct Pair {
   Index with;                 ///< ring or ball
   double contact_distance;    ///< r_A + r_B: centre lines closer than this touch, m (ball: r_A + R)
   double stiffness;           ///< k_c of eq. (7), N/m^1.5
-  double weight_a, weight_b;  ///< share of the end node's contact to take off: (degree - 1) / degree, or 0
+  double fraction_a, fraction_b;  ///< of the end node's own contact, that counts here: 1 / degree; 0: none does
 };
 
 /// What stands for the element of a sphere around the node; its own inverse.

@@ -1,6 +1,6 @@
 // Contact of thread elements with a fixed ball: the law of eqs. (6)-(9) between the element's closest point P
-// and the ball's surface, penetration delta = R + r_A - |P - C|. Shared nodes are counted once as in
-// ring_contact.cpp. A mass as a sphere is an element without length (a == b).
+// and the ball's surface, penetration delta = R + r_A - |P - C|. How contacts at shared nodes count is in
+// contact_item.hpp. A mass as a sphere is an element without length (a == b).
 #include "kernels/contact_item.hpp"
 #include "kernels/kernel_table.hpp"
 
@@ -25,33 +25,37 @@ struct BallSum {
   V3 impulse{0, 0, 0}, moment{0, 0, 0};  // of the force: times dt
 };
 
-// Adds `weight` times the contact of the point at t, which lies `out` from the centre; the law's result for
-// the watch.
-inline ContactForce add_contact(const BallArguments& g, const Pair& c, V3 place, V3 out, double distance,
-                                double t, double weight, EndLoads& loads, BallSum& sum) {
-  const auto& k = g.contact;
-  const V3 n = distance > 0 ? (1 / distance) * out : V3{0, 0, 1};
-  const double rate = -dot(n, blend(at(k.vx, k.vy, k.vz, c.a), at(k.vx, k.vy, k.vz, c.b), t));
-  const double penetration = c.contact_distance - distance;
-  const ContactForce law = contact_law(penetration, rate, c.stiffness, k.alpha);
-  const V3 force = (weight * law.force) * n;
-  loads.a = loads.a + (1 - t) * force;
-  loads.b = loads.b + t * force;
-  sum.potential += weight * law.potential;
-  sum.power += weight * (law.force - law.elastic) * rate;
-  sum.impulse = sum.impulse + force;
-  sum.moment = sum.moment + cross(place, force);
-  sum.penetration = penetration > sum.penetration ? penetration : sum.penetration;
-  return law;
+// A place on an element: its parameter, how it lies to the centre.
+struct BallPoint {
+  double t;
+  V3 place, out;
+  double distance;
+};
+
+inline BallPoint ball_point(V3 xa, V3 xb, V3 center, double t) {
+  const V3 place = blend(xa, xb, t), out = place - center;
+  return {t, place, out, norm(out)};
 }
 
-// Takes off the share of an end node's own contact.
-inline void take_off_node(const BallArguments& g, const Pair& c, V3 place, V3 center, double t, double weight,
-                          EndLoads& loads, BallSum& sum) {
-  if (weight == 0) return;
-  const V3 out = place - center;
-  const double distance = norm(out);
-  if (distance < c.contact_distance) add_contact(g, c, place, out, distance, t, -weight, loads, sum);
+// Adds the contact of the point as far as it counts; returns the law's result for the watch.
+inline ContactForce add_contact(const BallArguments& g, const Pair& c, const BallPoint& point,
+                                ContactWeight weight, EndLoads& loads, BallSum& sum) {
+  const auto& k = g.contact;
+  const double t = point.t;
+  const V3 n = point.distance > 0 ? (1 / point.distance) * point.out : V3{0, 0, 1};
+  const double rate = -dot(n, blend(at(k.vx, k.vy, k.vz, c.a), at(k.vx, k.vy, k.vz, c.b), t));
+  const double penetration = c.contact_distance - point.distance;
+  const ContactForce law = contact_law(penetration, rate, c.stiffness, k.alpha);
+  const double damper = weight.damper * (law.force - law.elastic);
+  const V3 force = (weight.spring * law.elastic + damper) * n;
+  loads.a = loads.a + (1 - t) * force;
+  loads.b = loads.b + t * force;
+  sum.potential += weight.spring * law.potential;
+  sum.power += damper * rate;
+  sum.impulse = sum.impulse + force;
+  sum.moment = sum.moment + cross(point.place, force);
+  sum.penetration = penetration > sum.penetration ? penetration : sum.penetration;
+  return law;
 }
 
 inline void book(const BallArguments& g, const Pair& c, const BallSum& sum, double share, BallTally& tally) {
@@ -73,16 +77,27 @@ inline void book(const BallArguments& g, const Pair& c, const BallSum& sum, doub
   }
 }
 
-// One pair in contact, at parameter t of its element.
-inline void touch(const BallArguments& g, const Pair& c, V3 xa, V3 xb, V3 center, double t, BallTally* tally,
-                  LoadWriter& out) {
+// One pair in contact at `point`.
+inline void touch(const BallArguments& g, const Pair& c, V3 xa, V3 xb, V3 center, const BallPoint& point,
+                  BallTally* tally, LoadWriter& out) {
   EndLoads loads;
   BallSum sum;
-  const V3 place = blend(xa, xb, t), away = place - center;
-  const ContactForce law = add_contact(g, c, place, away, norm(away), t, 1, loads, sum);
-  take_off_node(g, c, xa, center, 0, c.weight_a, loads, sum);
-  take_off_node(g, c, xb, center, 1, c.weight_b, loads, sum);
-  if (tally != nullptr) book(g, c, sum, thread_share(g.contact, c, t, step_weight(g.contact, law)), *tally);
+  const bool once = c.fraction_a > 0;
+  const BallPoint end_a = ball_point(xa, xb, center, 0), end_b = ball_point(xa, xb, center, 1);
+  const double depth_a = once ? c.contact_distance - end_a.distance : 0;
+  const double depth_b = once ? c.contact_distance - end_b.distance : 0;
+  const ContactWeights weights = contact_weights(c, c.contact_distance - point.distance, depth_a, depth_b);
+  const ContactForce law = add_contact(g, c, point, weights.element, loads, sum);
+  if (depth_a > 0) add_contact(g, c, end_a, weights.a, loads, sum);
+  if (depth_b > 0) add_contact(g, c, end_b, weights.b, loads, sum);
+  if (tally != nullptr) {
+    const double kappa = step_weight(g.contact, law);
+    const double share_a = multiplicity(c.fraction_a) * g.contact.node_share[c.a];
+    const double share_b = multiplicity(c.fraction_b) * g.contact.node_share[c.b];
+    const double use = depth_a > 0 && depth_b > 0 ? thread_share_of_both(c, kappa, share_a, share_b)
+                                                  : thread_share(kappa, point.t, share_a, share_b);
+    book(g, c, sum, use, *tally);
+  }
   out.add(c.a, loads.a);
   out.add(c.b, loads.b);
 }
@@ -96,10 +111,10 @@ Index ball_contacts(const BallArguments& g, const Pair* pairs, const Index* near
     const double* const middle = g.centers + 3 * c.with;
     const V3 center{middle[0], middle[1], middle[2]};
     const V3 xa = at(k.x, k.y, k.z, c.a), xb = at(k.x, k.y, k.z, c.b);
-    const double t = closest_on_segment(xa, xb, center);
-    gap[i] = norm(blend(xa, xb, t) - center) - c.contact_distance;
+    const BallPoint point = ball_point(xa, xb, center, closest_on_segment(xa, xb, center));
+    gap[i] = point.distance - c.contact_distance;
     BallTally* const tally = g.tallies[near[i]];
-    if (gap[i] < 0) touch(g, c, xa, xb, center, t, tally, out);
+    if (gap[i] < 0) touch(g, c, xa, xb, center, point, tally, out);
     else if (tally != nullptr) tally->potential = 0;
   }
   return static_cast<Index>(out.next - loads);

@@ -19,16 +19,49 @@ inline double step_weight(const kernel::ContactArguments& g, const ContactForce&
   return 0.25 * g.step * g.step * law.stiffness + 0.5 * g.step * law.damping;
 }
 
-/// How often one contact can load an end node: once where shared nodes are taken off (weight > 0): next to
-/// the node the neighbours' contacts cancel by inclusion and exclusion. Twice where they are not (the paper's
-/// rule; thread ends).
-inline double multiplicity(double weight) { return weight > 0 ? 1.0 : 2.0; }
+// Elements that meet in a node report its contact each. Counted once (contact.shared_node), the potential is
+//   U = sum over nodes U_n + sum over elements (U_e - max(U_a, U_b)),
+// U_e at the element's closest point, U_n at a node, a and b the element's ends: every node by itself, and
+// what an element sinks in deeper than its ends. It is continuous in all positions, nothing in it is negative
+// (U_e >= U_a, U_b), and where no element has both ends in contact it is that of inclusion and exclusion:
+// cutting a straight element in two changes nothing. Each of the elements at a node carries U_n / degree.
+// Dampers go with what is left of the elastic force at a place, alpha (F_e - max(F_a, F_b)) and alpha F_n, so
+// that each takes energy.
 
-/// Share of the stable step that a contact uses on the thread's side, with the mass that the elements leave
-/// over (node_share).
-inline double thread_share(const kernel::ContactArguments& g, const kernel::Pair& c, double t, double kappa) {
-  return kappa * ((1 - t) * (1 - t) * multiplicity(c.weight_a) * g.node_share[c.a] +
-                  t * t * multiplicity(c.weight_b) * g.node_share[c.b]);
+/// By how much the spring and the damper of a contact count at one place.
+struct ContactWeight {
+  double spring, damper;
+};
+
+/// Weights at an element's closest point and at its ends.
+struct ContactWeights {
+  ContactWeight element, a, b;
+};
+
+/// Penetrations, m: of the closest point > 0, of the ends at most that, or <= 0 where they do not touch.
+inline ContactWeights contact_weights(const kernel::Pair& c, double depth, double depth_a, double depth_b) {
+  const bool a_first = depth_a >= depth_b;
+  const double ratio = (a_first ? depth_a : depth_b) / depth;
+  const double share = ratio > 0 ? ratio * std::sqrt(ratio) : 0.0;  // max(F_a, F_b) / F_e
+  return {{1, share < 1 ? 1 - share : 0.0},
+          {c.fraction_a - (a_first ? 1 : 0), c.fraction_a},
+          {c.fraction_b - (a_first ? 0 : 1), c.fraction_b}};
+}
+
+/// How often one contact can load an end node: once where shared nodes are counted once, as its neighbours'
+/// contacts there cancel; twice by the paper's rule.
+inline double multiplicity(double fraction) { return fraction > 0 ? 1.0 : 2.0; }
+
+/// Share of the stable step that a contact uses on the thread's side; shares 1/kg of the ends.
+inline double thread_share(double kappa, double t, double share_a, double share_b) {
+  return kappa * ((1 - t) * (1 - t) * share_a + t * t * share_b);
+}
+
+/// The same where both ends touch. With p = ((1 - t), t), t <= 1/2 from the deeper end a, the greatest
+/// eigenvalue of p p^T - e_a e_a^T is at most (sqrt(5) - 1) / 4 = 0.31, beside 1 / degree for each node.
+inline double thread_share_of_both(const kernel::Pair& c, double kappa, double share_a, double share_b) {
+  const double at_a = (1 + 0.31 / c.fraction_a) * share_a, at_b = (1 + 0.31 / c.fraction_b) * share_b;
+  return kappa * (at_a > at_b ? at_a : at_b);
 }
 
 /// Where a kernel puts the contact forces on nodes, in the order in which nodes take them.

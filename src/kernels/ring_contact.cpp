@@ -7,9 +7,7 @@
 // Eq. (12) stops there. The contact potential U(delta(P, C, N)) also turns the host: with G = -dU/dN = F R
 // (n.N) e and N = (x_b - x_a)/L the host's ends take +G/L (b) and -G/L (a). That couple keeps angular
 // momentum and energy; without it ("paper") its power G.dN/dt and torque N x G are booked; so is the torque
-// on a ring that cannot turn. Neighbouring elements report the same contact at their shared node: it is
-// counted once by inclusion and exclusion, sum over elements minus (degree - 1) times the contact of each
-// shared node, which is continuous in all positions.
+// on a ring that cannot turn. How contacts at shared nodes count is in contact_item.hpp.
 //
 // Pairs go through ring_lanes.hpp in batches. One whose nodes touch, or whose closest points need a branch of
 // their own, goes through one_pair, which is also the plain reference of the batches.
@@ -72,64 +70,83 @@ struct PairLoads {
   V3 a{0, 0, 0}, b{0, 0, 0}, host_a{0, 0, 0}, host_b{0, 0, 0};
 };
 
-// Adds `weight` times the contact of the point at t; returns the law's result for the watch.
+// Adds the contact of the point at t as far as it counts; returns the law's result for the watch.
 inline ContactForce add_contact(const RingArguments& g, const RingMotion& ring, double radius, const Pair& c,
-                                const CirclePoint& point, double t, double weight, PairLoads& loads,
+                                const CirclePoint& point, ContactWeight weight, PairLoads& loads,
                                 RingSum& sum) {
   const auto& k = g.contact;
   const V3 gap = point.p - point.q;
   // on the wire's centre line itself the thread is pushed towards the ring's axis
   const V3 n = point.distance > 0 ? (1 / point.distance) * gap : -1.0 * point.radial;
+  const double t = point.t;
   const V3 velocity = blend(at(k.vx, k.vy, k.vz, c.a), at(k.vx, k.vy, k.vz, c.b), t);
   const double lever = radius * dot(n, ring.normal);
   const double turning = lever * dot(point.radial, ring.turn);
   const double rate = -(dot(n, velocity - ring.velocity) + turning);
   const ContactForce law = contact_law(c.contact_distance - point.distance, rate, c.stiffness, k.alpha);
-  const V3 force = (weight * law.force) * n;
-  const V3 couple = (weight * law.force * lever) * point.radial;
+  const double damper = weight.damper * (law.force - law.elastic);
+  const double counted = weight.spring * law.elastic + damper;
+  const V3 force = counted * n;
+  const V3 couple = (counted * lever) * point.radial;
   const V3 across = couple - dot(couple, ring.normal) * ring.normal, turn = ring.turn_length(g) * across;
   loads.a = loads.a + (1 - t) * force;
   loads.b = loads.b + t * force;
   loads.host_a = loads.host_a - ring.half() * force - turn;
   loads.host_b = loads.host_b - ring.half() * force + turn;
   sum.on_ring = sum.on_ring - force;
-  sum.potential += weight * law.potential;
-  sum.power += weight * (law.force - law.elastic) * rate;
+  sum.potential += weight.spring * law.potential;
+  sum.power += damper * rate;
   if (ring.held || !g.couple) {
-    sum.couple_power += weight * law.force * turning;
+    sum.couple_power += counted * turning;
     sum.torque = sum.torque + cross(ring.normal, across);
   }
   return law;
 }
 
-// Takes off the share of an end node's own contact (count each contact once).
-inline void take_off_node(const RingArguments& g, const RingMotion& ring, double radius, const Pair& c,
-                          V3 place, double t, double weight, PairLoads& loads, RingSum& sum) {
-  if (weight == 0) return;
-  const CirclePoint point = point_circle(place, ring.center, ring.normal, radius);
-  if (point.distance < c.contact_distance) add_contact(g, ring, radius, c, point, t, -weight, loads, sum);
+// Closest points of a pair: of the element, and of its ends where shared nodes are counted once.
+struct PairPoints {
+  CirclePoint element, end_a, end_b;
+};
+
+inline PairPoints pair_points(const RingArguments& g, const RingMotion& ring, double radius, const Pair& c) {
+  const auto& k = g.contact;
+  const V3 xa = at(k.x, k.y, k.z, c.a), xb = at(k.x, k.y, k.z, c.b);
+  PairPoints p{g.golden ? segment_circle_golden(xa, xb, ring.center, ring.normal, radius)
+                        : segment_circle_exact(xa, xb, ring.center, ring.normal, radius),
+               point_circle(xa, ring.center, ring.normal, radius),
+               point_circle(xb, ring.center, ring.normal, radius)};
+  p.end_b.t = 1;
+  if (c.fraction_a == 0) return p;
+  if (p.end_a.distance < p.element.distance) p.element = p.end_a;  // golden section can miss an end
+  if (p.end_b.distance < p.element.distance) p.element = p.end_b;
+  return p;
 }
 
 // One pair; returns the distance left to a contact. Rarely needed beside the batches: kept out of their way.
 [[gnu::noinline, gnu::cold]] double one_pair(const RingArguments& g, const Pair& c,
                                              const kernel::RingLane& lane, PairLoads& loads, RingSum& sum) {
-  const auto& k = g.contact;
-  const RingMotion ring = ring_motion(k, g.rings[c.with]);
+  const RingMotion ring = ring_motion(g.contact, g.rings[c.with]);
   const double radius = g.rings[c.with].radius;
-  const V3 xa = at(k.x, k.y, k.z, c.a), xb = at(k.x, k.y, k.z, c.b);
-  const CirclePoint point = g.golden ? segment_circle_golden(xa, xb, ring.center, ring.normal, radius)
-                                     : segment_circle_exact(xa, xb, ring.center, ring.normal, radius);
-  const double penetration = c.contact_distance - point.distance;
-  if (!(penetration > 0)) return -penetration;
-  const ContactForce law = add_contact(g, ring, radius, c, point, point.t, 1, loads, sum);
-  take_off_node(g, ring, radius, c, xa, 0, c.weight_a, loads, sum);
-  take_off_node(g, ring, radius, c, xb, 1, c.weight_b, loads, sum);
-  const double kappa = step_weight(k, law), t = point.t;
+  const PairPoints p = pair_points(g, ring, radius, c);
+  const CirclePoint& point = p.element;
+  const double depth = c.contact_distance - point.distance;
+  if (!(depth > 0)) return -depth;
+  const bool once = c.fraction_a > 0;
+  const double depth_a = once ? c.contact_distance - p.end_a.distance : 0;
+  const double depth_b = once ? c.contact_distance - p.end_b.distance : 0;
+  const ContactWeights weights = contact_weights(c, depth, depth_a, depth_b);
+  const ContactForce law = add_contact(g, ring, radius, c, point, weights.element, loads, sum);
+  if (depth_a > 0) add_contact(g, ring, radius, c, p.end_a, weights.a, loads, sum);
+  if (depth_b > 0) add_contact(g, ring, radius, c, p.end_b, weights.b, loads, sum);
+  const double kappa = step_weight(g.contact, law);
+  const bool both = depth_a > 0 && depth_b > 0;
   const double lever =
       radius * dot(point.p - point.q, ring.normal) / (point.distance > 0 ? point.distance : 1.0);
-  sum.note_use(c, penetration, host_use(kappa, ring.half(), ring.turn_length(g), lever, lane.host_share),
-               kappa * ((1 - t) * (1 - t) * lane.share_a + t * t * lane.share_b));
-  return -penetration;
+  const double times = both ? std::fmax(1.0, c.fraction_a + c.fraction_b) : 1.0;
+  sum.note_use(c, depth, times * host_use(kappa, ring.half(), ring.turn_length(g), lever, lane.host_share),
+               both ? thread_share_of_both(c, kappa, lane.share_a, lane.share_b)
+                    : thread_share(kappa, point.t, lane.share_a, lane.share_b));
+  return -depth;
 }
 
 inline void write_loads(const kernel::RingLane& p, const PairLoads& loads, LoadWriter& out) {

@@ -144,7 +144,7 @@ inline void contact_lanes(const kernel::RingArguments& g, RingLanes& l, Index co
     l.couple_power.at[i] = lost * (force * turning);
     l.gap.at[i] = gap;
     l.host_use.at[i] = kappa * most * most * l.host_share.at[i];
-    l.thread_use.at[i] = kappa * (s * s * l.share_a.at[i] + t * t * l.share_b.at[i]);
+    l.thread_use.at[i] = thread_share(kappa, t, l.share_a.at[i], l.share_b.at[i]);
     const double hard = c.hard.at[i] + (gap < 0 ? ends : 0.0) + (distance > 0 ? 0.0 : 1.0);
     c.hard.at[i] = hard;
     l.looked_at.at[i] = gap < 0 ? 1.0 : hard;

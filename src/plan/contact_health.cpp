@@ -18,49 +18,6 @@ std::string label_of(const Preparation& preparation, Index item) {
                   : element_label(preparation, item);
 }
 
-}  // namespace
-
-// Contacts at shared nodes are counted once by taking the node's own off those of its elements. Where a node
-// and most of the elements at it sink in side by side, less than nothing is left: the contact draws in, and
-// its damping drives.
-void check_contact_energy(const Preparation& preparation, const State& state, double scale, double limit) {
-  const auto check = [&](const char* kind, const std::string& name, const char* verb, double energy,
-                         Index first) {
-    if (!(energy < -limit * scale - least_energy)) return;
-    char text[700];
-    std::snprintf(
-        text, sizeof text,
-        "error: at t = %.9g s the contacts with %s '%s' %s %.3g J, less than nothing: -%.3g times what the "
-        "scene began with and what was put in (time.residual_limit = %.3g); first of all %s; likely cause: "
-        "nodes that sink in side by side with the elements that meet there; take longer elements, a harder "
-        "%s or contact.shared_node = \"paper\"",
-        static_cast<double>(state.step) * preparation.dt, kind, name.c_str(), verb, energy,
-        scale > 0 ? -energy / scale : HUGE_VAL, limit, label_of(preparation, first).c_str(), kind);
-    throw NumericalError(text);
-  };
-  const auto check_both = [&](const char* kind, const std::string& name, double potential, double dissipated,
-                              Index first) {
-    check(kind, name, "hold", potential, first);
-    check(kind, name, "have taken", dissipated, first);
-  };
-  for (std::size_t r = 0; r < state.rings.size(); ++r)
-    check_both("ring", preparation.assembly.rings[r].name, state.rings[r].potential,
-               state.rings[r].dissipated, state.rings[r].stiffest_element);
-  for (std::size_t b = 0; b < state.balls.size(); ++b) {
-    double potential = 0, dissipated = 0, least = 0;
-    Index first = -1;
-    for (const kernel::BallTally& tally : state.balls[b]) {
-      potential += tally.potential;
-      dissipated += tally.dissipated;
-      if (const double own = std::min(tally.potential, tally.dissipated); own < least)
-        least = own, first = tally.stiffest_element;
-    }
-    check_both("target", preparation.assembly.balls[b].name, potential, dissipated, first);
-  }
-}
-
-namespace {
-
 enum class With { ring, target };
 
 std::string label_of(const Preparation& preparation, With with, std::size_t number) {

@@ -10,11 +10,6 @@ namespace cinch {
 /// grow without bound; and for one that is about to be pressed through what it touches.
 void check_contacts(const Preparation& preparation, const Model& model, const State& state);
 
-/// Throws NumericalError when the contacts of a ring or target hold less than nothing, or when their damping
-/// has given energy in place of taking it: more than `limit` times `scale` (J). The residual shows neither,
-/// as both are booked.
-void check_contact_energy(const Preparation& preparation, const State& state, double scale, double limit);
-
 /// A contact deeper than this share of its distance is as good as through the wire.
 inline constexpr double pressed_share = 0.7;
 

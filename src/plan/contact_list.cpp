@@ -33,8 +33,8 @@ kernel::Pair pair_of(const Model& model, const ContactSet& set, Index position, 
           model.radius[at(e)] + other_radius,
           plain::contact_stiffness(model.radius[at(e)], curvature_radius, model.compliance[at(e)],
                                    other_compliance),
-          set.weight_a[at(position)],
-          set.weight_b[at(position)]};
+          set.fraction_a[at(position)],
+          set.fraction_b[at(position)]};
 }
 
 kernel::Pair pair_with_ring(const Model& model, Index position, std::size_t r) {

@@ -18,7 +18,7 @@ std::size_t memory_of(const Model& m) {
   std::size_t sum = bytes_of(m.mass, m.stiffness, m.damping, m.rest_length, m.end_a, m.end_b, m.radius,
                              m.compliance, m.constraints, m.rings, m.sliding_nodes, m.joints, m.topology.runs,
                              m.topology.slot_element, m.topology.links);
-  for (const ContactSet& set : m.contact_sets) sum += bytes_of(set.elements, set.weight_a, set.weight_b);
+  for (const ContactSet& set : m.contact_sets) sum += bytes_of(set.elements, set.fraction_a, set.fraction_b);
   return sum;
 }
 

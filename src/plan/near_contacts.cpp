@@ -21,10 +21,10 @@ kernel::RingLane lane_of(const kernel::Pair& pair, const kernel::RingGeometry& r
           ring.radius,
           pair.contact_distance,
           pair.stiffness,
-          pair.weight_a != 0 ? touch : 0,
-          pair.weight_b != 0 ? touch : 0,
-          plain::multiplicity(pair.weight_a) * share[pair.a],
-          plain::multiplicity(pair.weight_b) * share[pair.b],
+          pair.fraction_a > 0 ? touch : 0,
+          pair.fraction_b > 0 ? touch : 0,
+          plain::multiplicity(pair.fraction_a) * share[pair.a],
+          plain::multiplicity(pair.fraction_b) * share[pair.b],
           held ? share[ring.a] : share[ring.a] + share[ring.b],
           held ? 1.0 : 0.0};
 }

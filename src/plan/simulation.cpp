@@ -260,7 +260,6 @@ Frame Simulation::frame(const Look& now) {
 void Simulation::check_energy(const Look& now) {
   if (!scene_.output.ledger || scene_.time.allow_unstable) return;
   const double limit = scene_.time.residual_limit, residual = ledger_.energies(now.energy()).residual;
-  check_contact_energy(preparation_, state_, ledger_.scale(), limit);  // first: it knows the cause
   cinch::check_energy(preparation_, model(), state_, residual, ledger_.scale(), limit);
 }
 

@@ -60,13 +60,10 @@ ContactSet make_set(const Model& model, const Assembly& assembly, const std::vec
     ++degree[at(model.end_a[at(e)])];
     ++degree[at(model.end_b[at(e)])];
   }
-  const auto weight = [&](Index node) {
-    const double d = degree[at(node)];
-    return count_once ? (d - 1) / d : 0.0;
-  };
+  const auto fraction = [&](Index node) { return count_once ? 1.0 / degree[at(node)] : 0.0; };
   for (const Index e : set.elements) {
-    set.weight_a.push_back(weight(model.end_a[at(e)]));
-    set.weight_b.push_back(weight(model.end_b[at(e)]));
+    set.fraction_a.push_back(fraction(model.end_a[at(e)]));
+    set.fraction_b.push_back(fraction(model.end_b[at(e)]));
   }
   return set;
 }

@@ -20,8 +20,8 @@ struct ContactSet {
   std::vector<Index> elements;   // ascending
   double thickest = 0;           // greatest thread radius                                m
   double thinnest = 1e300;       // least thread radius                                   m
-  std::vector<double> weight_a;  // (degree - 1) / degree of end a within the set         -      elements
-  std::vector<double> weight_b;  // ... of end b                                          -      elements
+  std::vector<double> fraction_a;  // 1 / degree of end a in the set; 0: the paper's rule   -      elements
+  std::vector<double> fraction_b;  // ... of end b                                          -      elements
 };
 
 struct Model {

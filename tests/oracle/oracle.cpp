@@ -73,6 +73,10 @@ struct Oracle::Site {
   Vec3 turning = Vec3::Zero();  // m, tangential gradient of the distance with respect to the ring's normal
 };
 
+struct Oracle::Sites {
+  Site inside, a, b;
+};
+
 // ----------------------------------------------------------------------------------------------------
 // Set-up and closing
 
@@ -132,8 +136,7 @@ bool Oracle::allowed(Index element, const std::vector<Index>& parts, Index host)
   return element != host && std::find(parts.begin(), parts.end(), part) != parts.end();
 }
 
-/// Inclusion and exclusion: of `degree` elements that meet in a node, all but one repeat what happens at the
-/// node.
+/// Of `degree` elements that meet in a node, each carries that part of what happens at the node.
 std::vector<Oracle::Candidate> Oracle::candidates(const std::vector<Index>& parts, Index host) const {
   std::vector<int> degree(assembly_.nodes.size(), 0);
   std::vector<Candidate> list;
@@ -144,10 +147,9 @@ std::vector<Oracle::Candidate> Oracle::candidates(const std::vector<Index>& part
     list.push_back({i, 0, 0});
   }
   if (scene_.contact.shared_node == cinch::SharedNode::paper) return list;
-  const auto repeated = [&](Index node) { return (at(degree, node) - 1.0) / at(degree, node); };
   for (Candidate& c : list) {
-    c.repeated_a = repeated(at(assembly_.elements, c.element).a);
-    c.repeated_b = repeated(at(assembly_.elements, c.element).b);
+    c.part_a = 1.0 / at(degree, at(assembly_.elements, c.element).a);
+    c.part_b = 1.0 / at(degree, at(assembly_.elements, c.element).b);
   }
   return list;
 }
@@ -241,6 +243,21 @@ void Oracle::add_element(Index i, const Motion& m, Evaluation& sum) const {
 // ----------------------------------------------------------------------------------------------------
 // Thread and ring
 
+/// Every node's contact counts, and of an element's what its deeper end does not have:
+///   U = sum_n U_n + sum_e (U_e - max(U_a, U_b)),
+/// the dampers as the elastic forces in it, but never less than nothing at a place. k_c is the same for all
+/// three sites: depths compare as energies.
+template <class Push>
+void Oracle::count_once(const Candidate& c, const Sites& sites, Push push) const {
+  if (c.part_a == 0) return push(sites.inside, {1, 1});
+  if (!(sites.inside.delta > 0)) return;
+  const double depth_a = std::max(0.0, sites.a.delta), depth_b = std::max(0.0, sites.b.delta);
+  const double held_by_end = std::pow(std::max(depth_a, depth_b) / sites.inside.delta, 1.5);
+  push(sites.inside, {1, 1 - held_by_end});
+  push(sites.a, {c.part_a - (depth_a >= depth_b), c.part_a});
+  push(sites.b, {c.part_b - (depth_a < depth_b), c.part_b});
+}
+
 void Oracle::add_ring(Index i, const Motion& m, Evaluation& sum) const {
   const AssemblyRing& ring = at(assembly_.rings, i);
   const Frame frame = frame_of(ring, m);
@@ -250,9 +267,8 @@ void Oracle::add_ring(Index i, const Motion& m, Evaluation& sum) const {
         closest_to_circle(at(m.x, e.a), at(m.x, e.b), frame.center, frame.normal, ring.radius);
     const Site site = ring_site(i, frame, c.element, closest.t, m);
     sum.contacts += site.delta > 0;
-    push_ring(i, frame, site, 1, sum);
-    push_ring(i, frame, ring_site(i, frame, c.element, 0, m), -c.repeated_a, sum);
-    push_ring(i, frame, ring_site(i, frame, c.element, 1, m), -c.repeated_b, sum);
+    const auto push = [&](const Site& s, Share share) { push_ring(i, frame, s, share, sum); };
+    count_once(c, {site, ring_site(i, frame, c.element, 0, m), ring_site(i, frame, c.element, 1, m)}, push);
   }
 }
 
@@ -298,21 +314,22 @@ Oracle::Site Oracle::ring_site(Index i, const Frame& frame, Index element, doubl
   return site;
 }
 
-/// Adds `share` times the contact: eq. (10) on the element, eq. (12) on the ring's host, and the couple about
+/// Adds its share of the contact: eq. (10) on the element, eq. (12) on the ring's host, and the couple about
 /// the ring's centre, which is what the contact potential's gradient with respect to N leaves on the host's
 /// ends.
-void Oracle::push_ring(Index i, const Frame& frame, const Site& site, double share, Evaluation& sum) const {
-  if (share == 0 || !(site.delta > 0)) return;
+void Oracle::push_ring(Index i, const Frame& frame, const Site& site, Share share, Evaluation& sum) const {
+  if (!(site.delta > 0)) return;
   const AssemblyRing& ring = at(assembly_.rings, i);
   const AssemblyElement& e = at(assembly_.elements, site.element);
   const double stiffness = contact_stiffness(e.radius, ring.wire_radius, e.compliance, ring.compliance);
   const Push push = hunt_crossley(stiffness, scene_.contact.alpha_ring, site.delta, site.delta_dot);
-  const Vec3 force = share * push.total * site.direction;
+  const double total = share.spring * push.elastic + share.damper * (push.total - push.elastic);
+  const Vec3 force = total * site.direction;
   at(sum.force, e.a) += (1 - site.t) * force;
   at(sum.force, e.b) += site.t * force;
   at(sum.ring_force, i) -= force;
-  sum.contact += share * push.potential;
-  sum.contact_power += share * (push.total - push.elastic) * site.delta_dot;
+  sum.contact += share.spring * push.potential;
+  sum.contact_power += share.damper * (push.total - push.elastic) * site.delta_dot;
 
   if (ring.element < 0) {
     at(sum.force, ring.node) -= force;
@@ -322,7 +339,7 @@ void Oracle::push_ring(Index i, const Frame& frame, const Site& site, double sha
   at(sum.force, host.a) -= 0.5 * force;
   at(sum.force, host.b) -= 0.5 * force;
   if (scene_.contact.couple != cinch::RingCouple::conserving) return;
-  const Vec3 turn = share * push.total / frame.host_length * site.turning;
+  const Vec3 turn = total / frame.host_length * site.turning;
   at(sum.force, host.a) -= turn;
   at(sum.force, host.b) += turn;
 }
@@ -336,9 +353,8 @@ void Oracle::add_ball(Index i, const Motion& m, Evaluation& sum) const {
     const AssemblyElement& e = at(assembly_.elements, c.element);
     const Site site = ball_site(i, c.element, closest_to_point(at(m.x, e.a), at(m.x, e.b), ball.center).t, m);
     sum.contacts += site.delta > 0;
-    push_ball(i, site, 1, sum);
-    push_ball(i, ball_site(i, c.element, 0, m), -c.repeated_a, sum);
-    push_ball(i, ball_site(i, c.element, 1, m), -c.repeated_b, sum);
+    const auto push = [&](const Site& s, Share share) { push_ball(i, s, share, sum); };
+    count_once(c, {site, ball_site(i, c.element, 0, m), ball_site(i, c.element, 1, m)}, push);
   }
   add_spheres(i, m, sum);
 }
@@ -375,17 +391,18 @@ Oracle::Site Oracle::ball_site(Index i, Index element, double t, const Motion& m
   return site;
 }
 
-void Oracle::push_ball(Index i, const Site& site, double share, Evaluation& sum) const {
-  if (share == 0 || !(site.delta > 0)) return;
+void Oracle::push_ball(Index i, const Site& site, Share share, Evaluation& sum) const {
+  if (!(site.delta > 0)) return;
   const AssemblyBall& ball = at(assembly_.balls, i);
   const AssemblyElement& e = at(assembly_.elements, site.element);
   const double stiffness = contact_stiffness(e.radius, ball.radius, e.compliance, ball.compliance);
   const Push push = hunt_crossley(stiffness, scene_.contact.alpha_target, site.delta, site.delta_dot);
-  const Vec3 force = share * push.total * site.direction;
+  const double total = share.spring * push.elastic + share.damper * (push.total - push.elastic);
+  const Vec3 force = total * site.direction;
   at(sum.force, e.a) += (1 - site.t) * force;
   at(sum.force, e.b) += site.t * force;
-  sum.contact += share * push.potential;
-  sum.contact_power += share * (push.total - push.elastic) * site.delta_dot;
+  sum.contact += share.spring * push.potential;
+  sum.contact_power += share.damper * (push.total - push.elastic) * site.delta_dot;
 }
 
 // ----------------------------------------------------------------------------------------------------

@@ -67,14 +67,19 @@ class Oracle {
   Vec3 angular_momentum() const;  ///< kg m^2/s about the origin, of x_n and v_{n-1/2}
 
  private:
-  /// An element that may touch a ring or ball, and how much of its contact at its ends its neighbours count
-  /// too.
+  /// An element that may touch a ring or ball, and how much of the contact at its end nodes it carries; 0
+  /// where elements count by themselves.
   struct Candidate {
     Index element = 0;
-    double repeated_a = 0, repeated_b = 0;
+    double part_a = 0, part_b = 0;
+  };
+  /// Of a contact's elastic force and energy, and of its damper.
+  struct Share {
+    double spring, damper;
   };
   struct Frame;   // a ring's centre and normal with their rates
   struct Site;    // geometry of one contact
+  struct Sites;   // of an element: at its closest point, at its ends
   struct Motion;  // positions and velocities
 
   void set_extent();
@@ -95,8 +100,10 @@ class Oracle {
   Frame frame_of(const cinch::AssemblyRing& ring, const Motion& m) const;
   Site ring_site(Index ring, const Frame& frame, Index element, double t, const Motion& m) const;
   Site ball_site(Index ball, Index element, double t, const Motion& m) const;
-  void push_ring(Index ring, const Frame& frame, const Site& site, double share, Evaluation& sum) const;
-  void push_ball(Index ball, const Site& site, double share, Evaluation& sum) const;
+  void push_ring(Index ring, const Frame& frame, const Site& site, Share share, Evaluation& sum) const;
+  void push_ball(Index ball, const Site& site, Share share, Evaluation& sum) const;
+  template <class Push>
+  void count_once(const Candidate& c, const Sites& sites, Push push) const;
 
   cinch::Scene scene_;
   cinch::Assembly assembly_;
