@@ -155,6 +155,24 @@ TEST_F(Program, CheckSaysWhatACaseWouldDo) {
   EXPECT_TRUE(has(out(), "alpha_ring_s_m"));
 }
 
+TEST_F(Program, CheckTellsTheErrorWhereAsked) {
+  ASSERT_EQ(run({"check", "tiny.toml", "--error"}), 0) << err();
+  const std::string text = out();
+  EXPECT_FALSE(has(err(), "error:")) << err();
+  EXPECT_TRUE(has(err(), "running 4 of 4: ")) << err();
+  const std::string row = text.substr(text.find("\n  force ") + 1);
+  EXPECT_TRUE(has(row.substr(0, row.find('\n')), "peak")) << text;
+  EXPECT_TRUE(has(row.substr(0, row.find('\n')), " N ")) << text;
+  EXPECT_TRUE(has(text, "\n  all nodes ")) << text;
+  EXPECT_FALSE(has(text, "nan")) << text;
+  ASSERT_EQ(run({"check", "tiny.toml"}), 0);
+  EXPECT_FALSE(has(out(), "all nodes"));
+  EXPECT_EQ(run({"check", "tiny.toml", "--runs", "3"}), 2);
+  EXPECT_EQ(run({"check", "tiny.toml", "--error", "--runs", "0"}), 2);
+  EXPECT_EQ(run({"check", "tiny.toml", "--error", "--set", "time.speed_limit_m_s=0.1"}), 3);
+  EXPECT_TRUE(has(err(), "moves at")) << err();
+}
+
 TEST_F(Program, AResolvedCaseRunsToTheSameBits) {
   ASSERT_EQ(run({"check", "tiny.toml", "--resolved"}), 0);
   write("resolved.toml", out());

@@ -4,6 +4,7 @@
 #include <iostream>
 
 #include "app/commands.hpp"
+#include "app/error_table.hpp"
 #include "app/progress.hpp"
 #include "base/error.hpp"
 #include "plan/simulation.hpp"
@@ -130,11 +131,17 @@ void print_expected_time(const Scene& scene, const Trial& trial) {
       clock_text(trial.seconds).c_str(), trial.seconds / 60 / scene.time.end);
 }
 
+void check_error(const Scene& scene, const ErrorRuns& runs) {
+  std::fflush(stdout);
+  print_error(
+      estimate_error(scene, runs, [](const std::string& what) { std::cerr << "running " << what << "\n"; }));
+}
+
 }  // namespace
 
-int check(const CaseArguments& arguments, bool resolved) {
+int check(const CaseArguments& arguments, const CheckOptions& options) {
   const Scene scene = read_case(arguments.file, arguments.overrides);
-  if (resolved) {
+  if (options.resolved) {
     std::cout << scene.resolved_toml;
     return 0;
   }
@@ -149,6 +156,7 @@ int check(const CaseArguments& arguments, bool resolved) {
   if (trial.threads > 0) print_memory(start, frame, trial.memory);
   print_expected_time(scene, trial);
   std::printf("the case is valid\n");
+  if (options.error) check_error(scene, {options.runs, arguments.threads});
   return 0;
 }
 

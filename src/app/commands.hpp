@@ -30,8 +30,15 @@ struct ReportArguments {
   std::filesystem::path table;              ///< Markdown table; empty: none
 };
 
+/// What `cinch check` tells besides.
+struct CheckOptions {
+  bool resolved = false;  ///< the case with all defaults, and nothing else
+  bool error = false;     ///< how far it is from finer ones ...
+  int runs = 1;           ///< ... by the means of so many runs each
+};
+
 int run(const RunArguments& arguments);
-int check(const CaseArguments& arguments, bool resolved);
+int check(const CaseArguments& arguments, const CheckOptions& options);
 int info(const std::filesystem::path& result);
 int report(const ReportArguments& arguments);
 int compare(const std::filesystem::path& a, const std::filesystem::path& b);

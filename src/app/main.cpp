@@ -23,7 +23,7 @@ cinch::Override parse_override(const std::string& text) {
 struct Options {
   cinch::app::RunArguments run;
   std::vector<std::string> sets;
-  bool resolved = false;
+  cinch::app::CheckOptions check;
   std::vector<fs::path> results;
   cinch::app::ReportArguments report;
 };
@@ -65,7 +65,13 @@ Commands define(CLI::App& app, Options& options) {
   c.run->add_flag("--overwrite", options.run.overwrite, "replace a result that is there already");
   c.run->add_flag("--quiet", options.run.quiet, "no progress, no verdict");
   add_case(*c.check, options)->required();
-  c.check->add_flag("--resolved", options.resolved, "print the case with every default written out");
+  c.check->add_flag("--resolved", options.check.resolved, "print the case with every default written out");
+  CLI::Option* const error = c.check->add_flag(
+      "--error", options.check.error,
+      "run the case and finer ones beside it (eight times its run time): how far it is from them");
+  c.check->add_option("--runs", options.check.runs, "runs of each whose means are compared (default: 1)")
+      ->check(CLI::Range(1, 1000))
+      ->needs(error);
   c.info->add_option("RESULT", options.results, "folder or .vtkhdf file")->required()->expected(1);
   c.report->add_option("RESULT", options.report.results, "folders or .vtkhdf files")
       ->required()
@@ -93,7 +99,7 @@ void hint_at_command(const CLI::App& app, int argc, char** argv) {
 int dispatch(const Commands& c, Options& options) {
   for (const std::string& set : options.sets) options.run.scene.overrides.push_back(parse_override(set));
   if (*c.run) return cinch::app::run(options.run);
-  if (*c.check) return cinch::app::check(options.run.scene, options.resolved);
+  if (*c.check) return cinch::app::check(options.run.scene, options.check);
   if (*c.info) return cinch::app::info(options.results[0]);
   if (*c.report) return cinch::app::report(options.report);
   return cinch::app::compare(options.results[0], options.results[1]);

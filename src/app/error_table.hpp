@@ -1,0 +1,9 @@
+// The table of `cinch check --error`.
+#pragma once
+#include "plan/error_estimate.hpp"
+
+namespace cinch::app {
+
+void print_error(const ErrorEstimate& estimate);
+
+}  // namespace cinch::app

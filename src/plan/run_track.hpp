@@ -1,0 +1,18 @@
+// What a run leaves to compare with others: its probes over time, its nodes at the end.
+#pragma once
+#include <vector>
+
+#include "plan/simulation.hpp"
+
+namespace cinch {
+
+struct RunTrack {
+  std::vector<std::vector<double>> probes;  ///< a row for each sample, in the order of probe_columns
+  std::vector<std::vector<Vec3>> nodes;     ///< of each part of the assembly, m
+};
+
+/// Runs a scene to its end as `cinch run` does, without its files. Its nodes begin up to `nudge` (m)
+/// elsewhere in each direction: by chance, the same for the same seed. Throws what Simulation throws.
+RunTrack follow(const Scene& scene, int threads, double nudge = 0, unsigned seed = 0);
+
+}  // namespace cinch
