@@ -117,12 +117,13 @@ struct NodeEnergies {
 /// One element, or one mass as a sphere (a == b), that may touch one ring or ball before the broadphase
 /// margin is used up.
 struct Pair {
-  Index a, b;                 ///< nodes
-  Index element;              ///< for messages: user's number; sphere_label(node) of a sphere
-  Index with;                 ///< ring or ball
-  double contact_distance;    ///< r_A + r_B: centre lines closer than this touch, m (ball: r_A + R)
-  double stiffness;           ///< k_c of eq. (7), N/m^1.5
-  double fraction_a, fraction_b;  ///< of the end node's own contact, that counts here: 1 / degree; 0: none does
+  Index a, b;               ///< nodes
+  Index element;            ///< for messages: user's number; sphere_label(node) of a sphere
+  Index with;               ///< ring or ball
+  double contact_distance;  ///< r_A + r_B: centre lines closer than this touch, m (ball: r_A + R)
+  double stiffness;         ///< k_c of eq. (7), N/m^1.5
+  double fraction_a,
+      fraction_b;  ///< of the end node's own contact, that counts here: 1 / degree; 0: none does
 };
 
 /// What stands for the element of a sphere around the node; its own inverse.
@@ -187,6 +188,8 @@ struct Joint {
   Index host_a, host_b;  ///< host nodes; the same for a ring with a node of its own
   double normal[3];      ///< used when host_a == host_b
   double opening;        ///< radius of the disc that the thread's centre line can pass, m
+  double host_least;  ///< the ring's body keeps the ends of its host so far apart, m; 0 without such a host
+  double host_stiffness;  ///< ... with this, N/m: a part of it for each thread that slides through the ring
 };
 
 /// A thread on which rings slide; its elements are alike.

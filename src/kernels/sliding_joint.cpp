@@ -16,6 +16,10 @@
 // end for half a step before it; with the old force for the share s - 1/2 of the new one the work is right to
 // second order.
 //
+// A ring on an element is a body between its ends: they are held apart as by a spring that only pushes, once
+// the host is a small part of its rest length. The host's tension is over by then. Shorter and shorter hosts
+// would turn faster and faster, and in the end by any angle in a step.
+//
 // Elements are computed as straight ones with all the others. What is added here is the difference.
 #include "kernels/axial_law.hpp"
 #include "kernels/contact_item.hpp"
@@ -36,6 +40,7 @@ struct Host {
   Opening opening;
   V3 velocity, turn;      // m/s; dN/dt before projection, 1/s: zero for a ring with a node of its own
   double inverse_length;  // of the host, 1/m; zero for a ring with a node of its own
+  double shortness;       // of the host: by how much its ends are too near, m
 };
 
 // A straight piece of a way.
@@ -105,11 +110,16 @@ struct Slide {
 
 inline Host host_of(const kernel::ContactArguments& c, const kernel::Joint& joint) {
   const V3 xa = at(c.x, c.y, c.z, joint.host_a), va = at(c.vx, c.vy, c.vz, joint.host_a);
-  if (joint.host_a == joint.host_b) return {{xa, vec(joint.normal), joint.opening}, va, {0, 0, 0}, 0};
+  if (joint.host_a == joint.host_b) return {{xa, vec(joint.normal), joint.opening}, va, {0, 0, 0}, 0, 0};
   const V3 xb = at(c.x, c.y, c.z, joint.host_b), vb = at(c.vx, c.vy, c.vz, joint.host_b);
   const V3 along = xb - xa;
   const double length = norm(along), inverse = length > 0 ? 1 / length : 0.0;
-  return {{0.5 * (xa + xb), inverse * along, joint.opening}, 0.5 * (va + vb), inverse * (vb - va), inverse};
+  const double shortness = joint.host_least > length ? joint.host_least - length : 0.0;
+  return {{0.5 * (xa + xb), inverse * along, joint.opening},
+          0.5 * (va + vb),
+          inverse * (vb - va),
+          inverse,
+          shortness};
 }
 
 // ---- the way through the rings of one element
@@ -420,7 +430,9 @@ void note_group(const Slide& s, const Group& group, const Pulls& pulls) {
     s.state(j).along = s.thread.rest_length * (group.element + (way < 1 ? way : 1.0));
     s.state(j).length = length;
     s.state(j).tension = pulls.with.tension;
-    s.state(j).energy = j == group.first ? pulls.with.energy - pulls.without.energy : 0.0;
+    const double short_host = s.work[j].host.shortness;
+    s.state(j).energy = 0.5 * s.g.joints[j].host_stiffness * short_host * short_host;
+    if (j == group.first) s.state(j).energy += pulls.with.energy - pulls.without.energy;
   }
 }
 
@@ -441,6 +453,15 @@ void load_group(const Slide& s, const Group& group, double weight, Beyond& beyon
     in = next;
   }
   out.threads.add(s.node(group.element + 1), weight * (straight - tension * in));
+}
+
+// The ring's body pushes the ends of its host apart.
+inline void push_host(const Slide& s, Index j, SlidingWriter& out) {
+  const Host& host = s.work[j].host;
+  if (!(host.shortness > 0)) return;
+  const V3 push = (s.g.joints[j].host_stiffness * host.shortness) * host.opening.normal;
+  out.hosts.add(s.g.joints[j].host_a, -1.0 * push);
+  out.hosts.add(s.g.joints[j].host_b, push);
 }
 
 void load_thread(const Slide& s, double weight, Beyond& beyond, SlidingWriter& out) {
@@ -497,6 +518,7 @@ void slide_thread(const SlidingArguments& g, const SlidingThread& thread, Slidin
   Beyond beyond;
   if (g.contact.dt > 0 && pass_nodes(s)) load_passing_thread(s, beyond, out);
   else load_thread(s, 1, beyond, out);
+  for (Index j = thread.joint_begin; j < thread.joint_end; ++j) push_host(s, j, out);
   s.state(thread.joint_begin).dissipated += g.contact.dt * beyond.power;
   if (!(g.contact.dt > 0)) s.state(thread.joint_begin).due = beyond.power;
   for (Index j = thread.joint_begin; g.contact.dt > 0 && j < thread.joint_end; j = s.behind(j))

@@ -27,7 +27,8 @@ void SlidingJoints::make_room(const Model& model) {
   states_.resize(joints_.size());
   tallies_.assign(model.rings.size(), nullptr);
   scratch_.resize(joints_.size() * at(kernel::sliding_scratch));
-  for (auto* loads : {&on_threads_, &on_hosts_}) loads->resize(4 * joints_.size());
+  on_threads_.resize(4 * joints_.size());
+  on_hosts_.resize(6 * joints_.size());
 }
 
 void SlidingJoints::take_all(const Model& model) {

@@ -85,8 +85,16 @@ std::vector<Index> parts_now(const Model& model, const Assembly& assembly, const
   return parts;
 }
 
+// Of a host's rest length: its ends come no nearer, where rings slide. Far shorter ones turn their ring by
+// any angle in a step.
+constexpr double least_host = 0.1;
+
 kernel::Joint joint_of(const Model& model, const AssemblyRing& ring, Index number, Index first_element) {
-  kernel::Joint joint{number, ring.host_a, ring.host_b, {}, 0};
+  kernel::Joint joint{number, ring.host_a, ring.host_b, {}, 0, 0, 0};
+  if (ring.element >= 0) {
+    joint.host_least = least_host * model.rest_length[at(ring.element)];
+    joint.host_stiffness = model.stiffness[at(ring.element)] / static_cast<double>(ring.threadings.size());
+  }
   for (int d = 0; d < 3; ++d) joint.normal[d] = ring.normal[d];
   joint.opening = ring.radius - ring.wire_radius - model.radius[at(first_element)];
   return joint;
