@@ -216,8 +216,12 @@ const std::string two_rings = minimal + "[ring.a]\ncenter_m = [0.3, 0, 0]\nnorma
                               ring_body;
 
 TEST(CaseReader, AMethodIsASetOfDefaults) {
-  const Scene contact = parse_case(two_rings, "t.toml");
+  const Scene plain = parse_case(two_rings, "t.toml");
+  EXPECT_EQ(plain.rings[0].joint, RingJoint::automatic);
+
+  const Scene contact = parse_case(two_rings, "t.toml", {{"case.method", "\"contact\""}});
   EXPECT_EQ(contact.rings[0].joint, RingJoint::contact);
+  EXPECT_EQ(contact.time.step, 0);
 
   const Scene paper = parse_case(two_rings, "t.toml", {{"case.method", "\"paper\""}});
   EXPECT_EQ(paper.contact.couple, RingCouple::paper);
@@ -227,7 +231,7 @@ TEST(CaseReader, AMethodIsASetOfDefaults) {
   EXPECT_EQ(paper.rings[0].joint, RingJoint::contact);
 
   const Scene sliding = parse_case(two_rings, "t.toml", {{"case.method", "\"sliding\""}});
-  EXPECT_EQ(sliding.rings[0].joint, RingJoint::sliding);
+  EXPECT_EQ(sliding.rings[0].joint, RingJoint::automatic);
   EXPECT_EQ(sliding.rings[1].joint, RingJoint::contact) << "a key that is given goes first";
   EXPECT_EQ(sliding.contact.couple, RingCouple::conserving);
   EXPECT_EQ(sliding.time.step, 0);
@@ -243,7 +247,8 @@ TEST(CaseReader, TheResolvedTextOfAMethodReadsAsTheSameScene) {
 TEST(CaseReader, MethodsOfRowsOfRings) {
   const fs::path file = source_dir / "cases" / "capture.toml";
   for (const Ring& ring : read_case(file, {{"case.method", "\"sliding\""}}).rings)
-    EXPECT_EQ(ring.joint, RingJoint::sliding);
+    EXPECT_EQ(ring.joint, RingJoint::automatic);
+  for (const Ring& ring : read_case(file).rings) EXPECT_EQ(ring.joint, RingJoint::contact);
 }
 
 TEST(CaseReader, AnUnknownMethodIsRefused) {

@@ -36,6 +36,7 @@ velocity_m_s = [0, 0, 1]
 )";
 
 const std::string ring = R"([ring.r]
+joint = "contact"
 diameter_m = 0.02
 wire_diameter_m = 0.004
 mass_kg = 0.05

@@ -367,6 +367,7 @@ velocity_m_s = [2, 2, 3]
 start = { mass_kg = 0.02, velocity_m_s = [1, 2, 7] }
 end = { mass_kg = 0.03, velocity_m_s = [2, 0, 6] }
 [ring.r]
+joint = "contact"
 on = "net.main.top"
 element = 1
 diameter_m = 0.02

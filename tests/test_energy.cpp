@@ -258,6 +258,7 @@ points_m = [[-0.05, 0, 0.0068], [0.05, 0, 0.0068]]
 start = { support = "fixed" }
 end = { support = "fixed" }
 [ring.r]
+joint = "contact"
 diameter_m = 0.02
 wire_diameter_m = 0.004
 mass_kg = 0.001

@@ -39,6 +39,7 @@ points_m = [[0, 0, 0], [1, 0, 0]]
 start = { mass_kg = 0.2 }
 end = { mass_kg = 0.3 }
 [ring.pulley]
+joint = "contact"
 diameter_m = 0.3
 wire_diameter_m = 0.04
 mass_kg = 1

@@ -653,7 +653,7 @@ TEST(SlidingJoint, MouthClosesAsWithContactOfManyElements) {
 
 // ---- hosts that fold
 
-// The two ends of a slack host meet at 0.4 m/s and are pushed apart by the ring's body.
+// The two ends of a slack host meet at 0.1 m/s and are pushed apart by the ring's body.
 TEST(SlidingJoint, ARingKeepsTheEndsOfItsHostApart) {
   Scene scene = scene_of(R"(schema = 1
 [time]
@@ -667,8 +667,8 @@ material = "m"
 diameter_m = 0.002
 elements = 1
 points_m = [[-0.02, 0, 0], [0.02, 0, 0]]
-start = { mass_kg = 0.1, velocity_m_s = [0.2, 0, 0] }
-end = { mass_kg = 0.1, velocity_m_s = [-0.2, 0, 0] }
+start = { mass_kg = 0.1, velocity_m_s = [0.05, 0, 0] }
+end = { mass_kg = 0.1, velocity_m_s = [-0.05, 0, 0] }
 [thread.main]
 material = "m"
 diameter_m = 0.002
@@ -686,15 +686,26 @@ joint = "sliding"
 )");
   Simulation sim(scene, 1);
   double least = 1;
-  for (int i = 0; i < 15000; ++i) {
+  for (int i = 0; i < 45000; ++i) {
     sim.advance_to(sim.step() + 1);
     least = std::min(least, place(sim, 1).x() - place(sim, 0).x());
   }
   const double stiffness = 1e8 * circle(0.002) / 0.04, mass = 0.1 + 0.015 + 970 * circle(0.002) * 0.02;
-  EXPECT_NEAR(least, 0.1 * 0.04 - 0.4 * std::sqrt(mass / 2 / stiffness), 1e-6);
-  EXPECT_NEAR(sim.state().vx[0], -0.2, 1e-4);
-  EXPECT_NEAR(sim.state().vx[1], 0.2, 1e-4);
+  EXPECT_NEAR(least, 0.02 * 0.04 - 0.1 * std::sqrt(mass / 2 / stiffness), 1e-6);
+  EXPECT_NEAR(sim.state().vx[0], -0.05, 1e-4);
+  EXPECT_NEAR(sim.state().vx[1], 0.05, 1e-4);
   EXPECT_LT(sim.summary().relative_residual, 1e-5);
+}
+
+// A net that is stowed to 1 % begins with its hosts far shorter, and nothing is thrown apart.
+TEST(SlidingJoint, HostsOfAStowedNetBeginUnpressed) {
+  Scene scene = closing_net(12);
+  scene.nets[0].stowed_factor = 0.01;
+  for (Mechanism& mechanism : scene.mechanisms) mechanism.initial_stretch = 0.01;
+  Simulation sim(scene, 1);
+  sim.advance_to(sim.preparation().closing_step + 1);
+  EXPECT_TRUE(sim.closed_phase());
+  EXPECT_LT(sim.look().energy().elastic, 1e-9);
 }
 
 // Bunched rings on the slack edge: without that, one turned by 80 degrees in a step and threw 20 J into the

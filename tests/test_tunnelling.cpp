@@ -20,6 +20,7 @@ density_kg_m3 = 970
 )";
 
 const std::string fixed_ring = R"([ring.r]
+joint = "contact"
 diameter_m = 0.02
 wire_diameter_m = 0.004
 mass_kg = 0.01
@@ -52,6 +53,7 @@ points_m = [[0, -0.5, 0], [0, 0.5, 0]]
 start = { support = "fixed" }
 end = { support = "fixed" }
 [ring.r]
+joint = "contact"
 diameter_m = 0.02
 wire_diameter_m = 0.004
 mass_kg = 0.01
@@ -187,6 +189,7 @@ points_m = [[0.046, 0.02, -0.2], [0.046, 0.02, 0.2]]
 start = { support = "fixed" }
 end = { support = "fixed" }
 [ring.r]
+joint = "contact"
 diameter_m = 0.1
 wire_diameter_m = 0.004
 mass_kg = 0.001

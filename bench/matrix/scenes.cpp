@@ -52,6 +52,7 @@ Ring& add_ring(Scene& scene, const std::string& name, const Vec3& center, const 
   ring.youngs_modulus = 70e9;
   ring.center = center;
   ring.normal = normal.normalized();
+  ring.joint = RingJoint::contact;
   return scene.rings.emplace_back(ring);
 }
 

@@ -67,7 +67,7 @@ struct Thread {
   std::string name;
   std::string material;
   double diameter = 0;  ///< m
-  int elements = 1;
+  int elements = 12;
   std::vector<Vec3> points;        ///< polyline, m (empty when `along` is used)
   std::vector<std::string> along;  ///< closing thread: edges and mechanisms it is laid along, in order
   double overhang_start = 0;       ///< m, straight continuation before the first part of `along`
@@ -105,8 +105,9 @@ enum class RingHost {
 };
 
 enum class RingJoint {
-  contact,  ///< the thread touches the ring's wire, eqs. (3)-(12)
-  sliding   ///< the ring lies inside an element of the thread and slides without friction: sliding_joint.cpp
+  contact,   ///< the thread touches the ring's wire, eqs. (3)-(12)
+  sliding,   ///< the ring lies inside an element of the thread and slides without friction: sliding_joint.cpp
+  automatic  ///< sliding where that can be (threading.hpp), else contact
 };
 
 struct Ring {
@@ -125,7 +126,7 @@ struct Ring {
   Support support = Support::free;
   Vec3 axis = Vec3::UnitX();         ///< guide axis
   std::vector<std::string> threads;  ///< names of the threads it can touch; empty: every thread
-  RingJoint joint = RingJoint::contact;
+  RingJoint joint = RingJoint::automatic;
   SourceRef source;
 };
 

@@ -92,6 +92,19 @@ void thread_ring(const Ring& spec, const std::map<Index, LaidAlong>& carriers, c
   ring.parts.clear();
 }
 
+// Whether all of the threads that a ring names, or one of all threads, can slide through it.
+bool can_slide(const Ring& spec, const std::map<Index, LaidAlong>& carriers, const Assembly& assembly,
+               const AssemblyRing& ring) {
+  bool any = false;
+  for (const Index number : ring.parts) {
+    const std::size_t places = places_in_ring(assembly, carriers, ring, number).size();
+    const bool fits = opening(assembly, ring, assembly.parts[at(number)]) > 0;
+    if (places > 1 || (places == 1 && !fits) || (places == 0 && !spec.threads.empty())) return false;
+    any = any || places == 1;
+  }
+  return any;
+}
+
 }  // namespace
 
 double Carrier::middle_of(Index a, Index b) const {
@@ -102,9 +115,13 @@ double Carrier::middle_of(Index a, Index b) const {
 }
 
 void thread_rings(const Scene& scene, const std::map<Index, LaidAlong>& carriers, Assembly& assembly) {
-  for (std::size_t r = 0; r < scene.rings.size(); ++r)
-    if (scene.rings[r].joint == RingJoint::sliding)
-      thread_ring(scene.rings[r], carriers, assembly, assembly.rings[r]);
+  for (std::size_t r = 0; r < scene.rings.size(); ++r) {
+    const Ring& spec = scene.rings[r];
+    AssemblyRing& ring = assembly.rings[r];
+    if (spec.joint == RingJoint::sliding ||
+        (spec.joint == RingJoint::automatic && can_slide(spec, carriers, assembly, ring)))
+      thread_ring(spec, carriers, assembly, ring);
+  }
 }
 
 }  // namespace cinch

@@ -85,14 +85,19 @@ std::vector<Index> parts_now(const Model& model, const Assembly& assembly, const
   return parts;
 }
 
-// Of a host's rest length: its ends come no nearer, where rings slide. Far shorter ones turn their ring by
-// any angle in a step.
-constexpr double least_host = 0.1;
+// How near the ends of a sliding ring's host come to each other. Far shorter ones turn their ring by any
+// angle in a step. A folded net begins with nothing pressed.
+double least_host(const Model& model, const Assembly& assembly, const AssemblyRing& ring) {
+  const double begins =
+      (assembly.nodes[at(ring.host_b)].position - assembly.nodes[at(ring.host_a)].position).norm();
+  return std::min(0.02 * model.rest_length[at(ring.element)], 0.5 * begins);
+}
 
-kernel::Joint joint_of(const Model& model, const AssemblyRing& ring, Index number, Index first_element) {
+kernel::Joint joint_of(const Model& model, const Assembly& assembly, const AssemblyRing& ring, Index number,
+                       Index first_element) {
   kernel::Joint joint{number, ring.host_a, ring.host_b, {}, 0, 0, 0};
   if (ring.element >= 0) {
-    joint.host_least = least_host * model.rest_length[at(ring.element)];
+    joint.host_least = least_host(model, assembly, ring);
     joint.host_stiffness = model.stiffness[at(ring.element)] / static_cast<double>(ring.threadings.size());
   }
   for (int d = 0; d < 3; ++d) joint.normal[d] = ring.normal[d];
@@ -117,7 +122,8 @@ void fill_joints(Model& model, const Assembly& assembly, Index number) {
                    [](const Place& l, const Place& r) { return l.along < r.along; });
   const auto joint_begin = static_cast<Index>(model.joints.size());
   for (const Place& place : places) {
-    model.joints.push_back(joint_of(model, assembly.rings[at(place.ring)], place.ring, part.first_element));
+    model.joints.push_back(
+        joint_of(model, assembly, assembly.rings[at(place.ring)], place.ring, part.first_element));
     model.joint_element.push_back(std::clamp(static_cast<Index>(place.along), 0, part.elements - 1));
   }
   const auto e = at(part.first_element);

@@ -51,6 +51,7 @@ velocity_m_s = [0, 0, -1]
 start = { mass_kg = 0.1 }
 end = { support = "fixed" }
 [ring.r1]
+joint = "contact"
 diameter_m = 0.02
 wire_diameter_m = 0.004
 mass_kg = 0.1
