@@ -86,7 +86,8 @@ inline void touch(const BallArguments& g, const Pair& c, V3 xa, V3 xb, V3 center
   const BallPoint end_a = ball_point(xa, xb, center, 0), end_b = ball_point(xa, xb, center, 1);
   const double depth_a = once ? c.contact_distance - end_a.distance : 0;
   const double depth_b = once ? c.contact_distance - end_b.distance : 0;
-  const ContactWeights weights = contact_weights(c, c.contact_distance - point.distance, depth_a, depth_b);
+  const double depth = c.contact_distance - point.distance;
+  const ContactWeights weights = contact_weights(c, depth, depth_a, depth_b);
   const ContactForce law = add_contact(g, c, point, weights.element, loads, sum);
   if (depth_a > 0) add_contact(g, c, end_a, weights.a, loads, sum);
   if (depth_b > 0) add_contact(g, c, end_b, weights.b, loads, sum);
@@ -94,8 +95,10 @@ inline void touch(const BallArguments& g, const Pair& c, V3 xa, V3 xb, V3 center
     const double kappa = step_weight(g.contact, law);
     const double share_a = multiplicity(c.fraction_a) * g.contact.node_share[c.a];
     const double share_b = multiplicity(c.fraction_b) * g.contact.node_share[c.b];
-    const double use = depth_a > 0 && depth_b > 0 ? thread_share_of_both(c, kappa, share_a, share_b)
-                                                  : thread_share(kappa, point.t, share_a, share_b);
+    const bool both = depth_a > 0 && depth_b > 0;
+    const double use =
+        both ? thread_share_of_both(c, kappa, point.t, depth, depth_a, depth_b, share_a, share_b)
+             : thread_share(kappa, point.t, share_a, share_b);
     book(g, c, sum, use, *tally);
   }
   out.add(c.a, loads.a);

@@ -57,11 +57,18 @@ inline double thread_share(double kappa, double t, double share_a, double share_
   return kappa * ((1 - t) * (1 - t) * share_a + t * t * share_b);
 }
 
-/// The same where both ends touch. With p = ((1 - t), t), t <= 1/2 from the deeper end a, the greatest
-/// eigenvalue of p p^T - e_a e_a^T is at most (sqrt(5) - 1) / 4 = 0.31, beside 1 / degree for each node.
-inline double thread_share_of_both(const kernel::Pair& c, double kappa, double share_a, double share_b) {
-  const double at_a = (1 + 0.31 / c.fraction_a) * share_a, at_b = (1 + 0.31 / c.fraction_b) * share_b;
-  return kappa * (at_a > at_b ? at_a : at_b);
+/// The same where both ends touch, at their depths. A node's own contact counts there, with its own
+/// stiffness; the element has p p^T - e e^T besides, with p = (q, 1 - q) and e = (0, 1), the deeper end
+/// second: its greatest eigenvalue is q (sqrt((1 - q)^2 + 1) - (1 - q)). What the deeper end leaves over
+/// counts as a contact of its own.
+inline double thread_share_of_both(const kernel::Pair& c, double kappa, double t, double depth,
+                                   double depth_a, double depth_b, double share_a, double share_b) {
+  const double a = std::sqrt(depth_a / depth),
+               b = std::sqrt(depth_b / depth);  // stiffness goes with the root
+  const double deep = a > b ? a : b, q = a > b ? t : 1 - t;
+  const double turning = deep * q * (std::sqrt((1 - q) * (1 - q) + 1) - (1 - q));
+  const double at_a = (a + turning / c.fraction_a) * share_a, at_b = (b + turning / c.fraction_b) * share_b;
+  return kappa * (at_a > at_b ? at_a : at_b) + thread_share(kappa * (1 - deep), t, share_a, share_b);
 }
 
 /// Where a kernel puts the contact forces on nodes, in the order in which nodes take them.

@@ -143,9 +143,10 @@ inline PairPoints pair_points(const RingArguments& g, const RingMotion& ring, do
   const double lever =
       radius * dot(point.p - point.q, ring.normal) / (point.distance > 0 ? point.distance : 1.0);
   const double times = both ? std::fmax(1.0, c.fraction_a + c.fraction_b) : 1.0;
-  sum.note_use(c, depth, times * host_use(kappa, ring.half(), ring.turn_length(g), lever, lane.host_share),
-               both ? thread_share_of_both(c, kappa, lane.share_a, lane.share_b)
-                    : thread_share(kappa, point.t, lane.share_a, lane.share_b));
+  sum.note_use(
+      c, depth, times * host_use(kappa, ring.half(), ring.turn_length(g), lever, lane.host_share),
+      both ? thread_share_of_both(c, kappa, point.t, depth, depth_a, depth_b, lane.share_a, lane.share_b)
+           : thread_share(kappa, point.t, lane.share_a, lane.share_b));
   return -depth;
 }
 
