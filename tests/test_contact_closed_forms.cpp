@@ -309,6 +309,22 @@ poissons_ratio = 0.39
   EXPECT_NEAR(thread_force(scene, 25).z() / one, 4, 1e-10);
 }
 
+// From deep inside the wire on one side over to a lighter touch of the other, where golden section ends up.
+TEST(SharedNode, GoldenSectionDoesNotMissAnEndInContact) {
+  Scene scene = thread_in_ring(0);
+  const double touch = wire_radius + thread_radius;
+  scene.threads[0].elements = 1;
+  scene.threads[0].points = {Vec3(-ring_radius + 0.1 * touch, 0, 0),
+                             Vec3(ring_radius + touch, 0, 0.62 * touch)};
+  const auto energy = [&](DistanceMethod method) {
+    scene.contact.distance = method;
+    return Simulation(scene, 1).look().energy().contact;
+  };
+  const double deep = 0.4 * ring_stiffness() * std::pow(0.9 * touch, 2.5);
+  EXPECT_NEAR(energy(DistanceMethod::exact) / deep, 1, 1e-9);
+  EXPECT_NEAR(energy(DistanceMethod::golden) / deep, 1, 1e-9);
+}
+
 TEST(SharedNode, ForceOnTheRingIsMinusTheThreads) {
   Scene scene = thread_in_ring(0.3 * element);
   scene.threads[0].points[1] += Vec3(0, 0.03, 0);  // askew

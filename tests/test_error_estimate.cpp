@@ -169,6 +169,24 @@ TEST(ErrorEstimate, IsNotBelowTheTrueErrorNorFarAbove) {
   }
 }
 
+TEST(ErrorEstimate, ComparesTheRunsThatItNames) {
+  const Scene scene = waving_thread(8);
+  Scene half = scene;
+  half.time.step = prepare(scene).dt / 2;
+  const RunTrack own = follow(scene, 1), by_step = follow(half, 1),
+                 by_threads = follow(finer_threads(half, 2), 1);
+  const auto apart = [](const RunTrack& a, const RunTrack& b) {
+    double most = 0;
+    for (std::size_t s = 0; s < a.probes.size(); ++s)
+      most = std::max(most, std::hypot(a.probes[s][0] - b.probes[s][0], a.probes[s][1] - b.probes[s][1],
+                                       a.probes[s][2] - b.probes[s][2]));
+    return most;
+  };
+  const ErrorEstimate::Row row = row_of(estimate_error(scene, {1, 1}, quietly), "end");
+  EXPECT_DOUBLE_EQ(row.difference[ErrorEstimate::of_step], apart(own, by_step));
+  EXPECT_DOUBLE_EQ(row.difference[ErrorEstimate::of_threads], apart(by_step, by_threads));
+}
+
 TEST(ErrorEstimate, HasARowForEachQuantityAndOneForAllNodes) {
   const ErrorEstimate estimate = estimate_error(waving_thread(8), {1, 1}, quietly);
   ASSERT_EQ(estimate.rows.size(), 4u) << "energies are not compared";

@@ -811,6 +811,37 @@ TEST(SlidingJoint, TwoThreadsSlideThroughOneRing) {
   for (const auto& joint : sim.state().joints) EXPECT_GT(joint.passes, 0);
 }
 
+// Without a word about it, rings slide where they can.
+TEST(AutomaticJoint, SlidesWhereItsThreadsPassThroughOnceWithRoom) {
+  const auto slides = [](const Scene& scene) { return Simulation(scene, 1).model().slides(0); };
+  Scene scene = two_masses("", second_thread);
+  scene.rings[0].joint = RingJoint::automatic;
+  EXPECT_TRUE(slides(scene)) << "two threads pass through it";
+  Scene named = scene;
+  named.rings[0].threads = {"main", "second"};
+  EXPECT_TRUE(slides(named));
+  named.threads[1].points = {Vec3(0.1, -0.3, 0), Vec3(0.1, 0.3, 0)};
+  EXPECT_FALSE(slides(named)) << "one of those it names passes elsewhere";
+  named.rings[0].threads = {};
+  EXPECT_TRUE(slides(named)) << "it names none: one is enough";
+  Scene beside = scene;
+  beside.rings[0].center = Vec3(0.5, 0, 0);
+  EXPECT_FALSE(slides(beside));
+  Scene twice = scene;
+  twice.threads[0].points = {Vec3(0, -0.3, 0.043), Vec3(0, 0.4, 0.043), Vec3(0.001, -0.3, 0.043)};
+  EXPECT_FALSE(slides(twice)) << "a thread that comes back through it";
+  Scene thick = scene;
+  thick.threads[0].diameter = 0.02;
+  EXPECT_FALSE(slides(thick));
+}
+
+TEST(AutomaticJoint, IsTheDefault) {
+  const std::string path = (std::filesystem::path(CINCH_SOURCE_DIR) / "cases" / "ring_pull.toml").string();
+  const Scene plain = read_case(path, {{"case.method", "sliding"}, {"time.step_s", "auto"}});
+  EXPECT_TRUE(Simulation(plain, 1).model().slides(0));
+  EXPECT_FALSE(Simulation(read_case(path), 1).model().slides(0)) << "the paper's case asks for contact";
+}
+
 TEST(SlidingJoint, RingsWithContactStandBesideThoseThatSlide) {
   Scene scene = two_masses("threads = [\"main\"]\n", second_thread + R"([ring.touched]
 diameter_m = 0.02

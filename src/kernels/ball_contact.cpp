@@ -51,7 +51,7 @@ inline ContactForce add_contact(const BallArguments& g, const Pair& c, const Bal
   loads.a = loads.a + (1 - t) * force;
   loads.b = loads.b + t * force;
   sum.potential += weight.spring * law.potential;
-  sum.power += damper * rate;
+  sum.power += damper_power(damper, weight.damper * law.thickening, rate, k.step);
   sum.impulse = sum.impulse + force;
   sum.moment = sum.moment + cross(point.place, force);
   sum.penetration = penetration > sum.penetration ? penetration : sum.penetration;

@@ -95,7 +95,7 @@ inline ContactForce add_contact(const RingArguments& g, const RingMotion& ring, 
   loads.host_b = loads.host_b - ring.half() * force + turn;
   sum.on_ring = sum.on_ring - force;
   sum.potential += weight.spring * law.potential;
-  sum.power += damper * rate;
+  sum.power += damper_power(damper, weight.damper * law.thickening, rate, k.step);
   if (ring.held || !g.couple) {
     sum.couple_power += counted * turning;
     sum.torque = sum.torque + cross(ring.normal, across);

@@ -140,7 +140,8 @@ inline void contact_lanes(const kernel::RingArguments& g, RingLanes& l, Index co
     l.torque.y[i] = lost * (az * gx - ax * gz);
     l.torque.z[i] = lost * (ax * gy - ay * gx);
     l.potential.at[i] = 0.4 * elastic * penetration;
-    l.power.at[i] = (force - elastic) * rate;
+    const double thickening = factor > 0 ? slope_rate * (1.5 * slope) : 0.0;
+    l.power.at[i] = damper_power(force - elastic, thickening, rate, g.contact.step);
     l.couple_power.at[i] = lost * (force * turning);
     l.gap.at[i] = gap;
     l.host_use.at[i] = kappa * most * most * l.host_share.at[i];

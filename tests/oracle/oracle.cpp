@@ -38,11 +38,15 @@ double contact_stiffness(double radius_1, double radius_2, double compliance_1, 
 struct Push {
   double elastic = 0, total = 0;  // N
   double potential = 0;           // J
+  double late = 0;                // W/s: what the damper's power counts too much for each second of the step
 };
 
 Push hunt_crossley(double stiffness, double alpha, double delta, double delta_dot) {
   const double elastic = stiffness * std::pow(delta, 1.5);
-  return {elastic, std::max(0.0, elastic * (1 + 1.5 * alpha * delta_dot)), 0.4 * elastic * delta};
+  const double total = std::max(0.0, elastic * (1 + 1.5 * alpha * delta_dot));
+  // velocities are those of half a step before: a quarter of the growth of lambda, times the rate squared
+  const double growth = total > 0 ? 1.5 * alpha * 1.5 * elastic / delta * delta_dot : 0;
+  return {elastic, total, 0.4 * elastic * delta, growth * delta_dot * delta_dot / 4};
 }
 
 Vec3 any_normal_to(const Vec3& n) {
@@ -178,7 +182,7 @@ void Oracle::book(const Evaluation& now) {
   for (std::size_t e = 0; e < last_damper_.size(); ++e)  // the velocity between two forces does work on both
     dissipated_damper_ += dt_ * 0.5 * (last_damper_[e] + now.damper[e]) * now.rate[e];
   last_damper_ = now.damper;
-  dissipated_contact_ += dt_ * now.contact_power;
+  dissipated_contact_ += dt_ * (now.contact_power - dt_ * now.contact_late);
   contacts_seen_ += now.contacts;
   ring_force_ = now.ring_force;
 }
@@ -330,6 +334,7 @@ void Oracle::push_ring(Index i, const Frame& frame, const Site& site, Share shar
   at(sum.ring_force, i) -= force;
   sum.contact += share.spring * push.potential;
   sum.contact_power += share.damper * (push.total - push.elastic) * site.delta_dot;
+  sum.contact_late += share.damper * push.late;
 
   if (ring.element < 0) {
     at(sum.force, ring.node) -= force;
@@ -376,6 +381,7 @@ void Oracle::add_spheres(Index i, const Motion& m, Evaluation& sum) const {
     at(sum.force, sphere.node) += push.total * direction;
     sum.contact += push.potential;
     sum.contact_power += (push.total - push.elastic) * delta_dot;
+    sum.contact_late += push.late;
     ++sum.contacts;
   }
 }
@@ -403,6 +409,7 @@ void Oracle::push_ball(Index i, const Site& site, Share share, Evaluation& sum) 
   at(sum.force, e.b) += site.t * force;
   sum.contact += share.spring * push.potential;
   sum.contact_power += share.damper * (push.total - push.elastic) * site.delta_dot;
+  sum.contact_late += share.damper * push.late;
 }
 
 // ----------------------------------------------------------------------------------------------------

@@ -30,6 +30,7 @@ struct Evaluation {
   std::vector<double> damper;    ///< N, force of each element's damper
   std::vector<double> rate;      ///< m/s, at which each element becomes longer
   double contact_power = 0;      ///< W, lost in contacts
+  double contact_late = 0;       ///< W/s: by how much that is too great, for each second of the step
   long contacts = 0;             ///< elements and spheres that touch a ring or a ball
   double damper_power() const;   ///< W, lost in the elements' dampers
 };
