@@ -6,9 +6,9 @@
 #include <string>
 
 #include "base/error.hpp"
-#include "plan/error_estimate.hpp"
-#include "plan/picture.hpp"
-#include "plan/run_track.hpp"
+#include "study/error_estimate.hpp"
+#include "study/picture.hpp"
+#include "study/run_track.hpp"
 #include "scene/finer_threads.hpp"
 #include "support/scenes.hpp"
 

@@ -1,4 +1,4 @@
-// Includes follow the arrow base -> scene -> input / store -> plan -> output -> report -> app and never turn
+// Includes follow the arrow base -> scene -> input / store -> plan -> study, output -> report -> app and never turn
 // back; kernel files stay plain; every source file says what it is for and stays short.
 #include <gtest/gtest.h>
 
@@ -27,9 +27,11 @@ const std::map<std::string, std::set<std::string>>& allowed() {
       {"store", {"base", "kernels", "scene", "store"}},
       {"statics", {"base", "scene", "statics"}},
       {"plan", {"base", "kernels", "scene", "store", "statics", "plan"}},
+      {"study", {"base", "scene", "plan", "store", "kernels", "study"}},
       {"output", {"base", "output"}},
       {"report", {"base", "scene", "output", "report"}},
-      {"app", {"base", "kernels", "scene", "input", "store", "statics", "plan", "output", "report", "app"}},
+      {"app",
+       {"base", "kernels", "scene", "input", "store", "statics", "plan", "study", "output", "report", "app"}},
   };
   return table;
 }
@@ -88,8 +90,8 @@ TEST(Layers, IncludesNeverTurnBack) {
 }
 
 TEST(Layers, TheTableIsAnArrow) {  // every folder stands after those that it knows
-  const std::vector<std::string> order{"base",    "kernels", "scene",  "input",  "store",
-                                       "statics", "plan",    "output", "report", "app"};
+  const std::vector<std::string> order{"base", "kernels", "scene",  "input",  "store", "statics",
+                                       "plan", "study",   "output", "report", "app"};
   const auto rank = [&](const std::string& name) {
     return std::find(order.begin(), order.end(), name) - order.begin();
   };

@@ -1,6 +1,6 @@
 // The table of `cinch check --error`.
 #pragma once
-#include "plan/error_estimate.hpp"
+#include "study/error_estimate.hpp"
 
 namespace cinch::app {
 

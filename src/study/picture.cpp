@@ -1,4 +1,4 @@
-#include "plan/picture.hpp"
+#include "study/picture.hpp"
 
 #include <algorithm>
 #include <cmath>

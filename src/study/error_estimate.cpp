@@ -1,4 +1,4 @@
-#include "plan/error_estimate.hpp"
+#include "study/error_estimate.hpp"
 
 #include <omp.h>
 
@@ -8,9 +8,9 @@
 #include <limits>
 
 #include "base/error.hpp"
-#include "plan/picture.hpp"
+#include "study/picture.hpp"
 #include "plan/probes.hpp"
-#include "plan/run_track.hpp"
+#include "study/run_track.hpp"
 #include "scene/finer_threads.hpp"
 
 namespace cinch {

@@ -1,4 +1,4 @@
-#include "plan/run_track.hpp"
+#include "study/run_track.hpp"
 
 #include <cmath>
 #include <random>
