@@ -57,8 +57,11 @@ def counts():
             for function in entry["functions"]:
                 name = function["demangled_name"]
                 file.functions[name] = function["start_line"], function["end_line"]
+            texts = path.read_text().splitlines()
             for line in entry["lines"]:
                 number = line["line_number"]
+                if not texts[number - 1].strip(" {}();,"):  # only exceptions stop here
+                    continue
                 file.lines[number] += line["count"]
                 for k, count in enumerate(forks(line["branches"])):
                     file.branches[number, k] += count
