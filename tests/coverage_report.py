@@ -55,7 +55,7 @@ def counts():
                 continue
             file = files[str(path.relative_to(source))]
             for function in entry["functions"]:
-                name = function["demangled_name"]
+                name = re.sub(r"\[abi:\w+\]", "", function["demangled_name"])
                 file.functions[name] = function["start_line"], function["end_line"]
             texts = path.read_text().splitlines()
             for line in entry["lines"]:
