@@ -29,15 +29,18 @@ cinch_install() {
   DEBIAN_FRONTEND=noninteractive "${as_root[@]}" apt-get install -y -qq --no-install-recommends "${missing[@]}" >&2
 }
 
-cinch_build() {
-  cinch_install "${cinch_packages[@]}"
-  local build=$cinch_root/build/release
+# Configures build/PRESET where it is not yet.
+cinch_configure() {
+  local build=$cinch_root/build/$1
   # a folder that was copied or moved brings a build of its old place
   if [ -d "$build" ] && ! grep -qsxF "CMAKE_HOME_DIRECTORY:INTERNAL=$cinch_root" "$build/CMakeCache.txt"; then
     rm -rf "$build"
   fi
-  if [ ! -f "$build/build.ninja" ]; then
-    (cd "$cinch_root" && cmake --preset release >&2)
-  fi
-  cmake --build "$build" --target "$@" >&2
+  [ -f "$build/build.ninja" ] || (cd "$cinch_root" && cmake --preset "$1" >&2)
+}
+
+cinch_build() {
+  cinch_install "${cinch_packages[@]}"
+  cinch_configure release
+  cmake --build "$cinch_root/build/release" --target "$@" >&2
 }

@@ -1,17 +1,24 @@
 """Sums up what gcov counted under src/: lines and branches of each folder on the terminal, of each file with its
 uncovered lines in BUILD/report.txt. A line or branch counts as reached when it is in any object file, as kernels are
 compiled several times. Forks between a call's return and its exception are left out; the
-forks that a compiler adds for lists of data (the key tables of src/input) are not."""
+forks that a compiler adds for lists of data (the key tables of src/input) are not.
+
+tests/not_covered.txt gives reasons, one a line: FILE | TEXT | REASON. It holds for the lines of src/FILE that contain
+TEXT, or, where TEXT is "NAME()", for the whole function NAME: line numbers may change. With --all, lines without a
+reason and reasons without a line are an error; a reason that begins with "by chance" may go unused."""
 import collections
 import gzip
 import json
 import pathlib
+import re
 import subprocess
 import sys
 import tempfile
 
 build = pathlib.Path(sys.argv[1]).resolve()
-source = build.parent.parent / "src"
+whole_suite = "--all" in sys.argv
+root = build.parent.parent
+source = root / "src"
 
 
 def counted_files():
@@ -32,21 +39,67 @@ def forks(branches):
     return [branch["count"] for k, branch in enumerate(branches) if k | 1 not in thrown]
 
 
+class File:
+    def __init__(self):
+        self.lines, self.branches = collections.Counter(), collections.Counter()
+        self.functions = {}  # name: (first line, last line)
+
+
 def counts():
-    """{file: ({line: count}, {(line, branch): count})}"""
-    files = collections.defaultdict(lambda: (collections.Counter(), collections.Counter()))
+    """{name: File}"""
+    files = collections.defaultdict(File)
     for document in counted_files():
         for entry in document["files"]:
             path = pathlib.Path(document["current_working_directory"], entry["file"]).resolve()
             if source not in path.parents:
                 continue
-            lines, branches = files[str(path.relative_to(source))]
+            file = files[str(path.relative_to(source))]
+            for function in entry["functions"]:
+                name = re.sub(r"\[abi:\w+\]", "", function["demangled_name"])
+                file.functions[name] = function["start_line"], function["end_line"]
+            texts = path.read_text().splitlines()
             for line in entry["lines"]:
                 number = line["line_number"]
-                lines[number] += line["count"]
+                if not texts[number - 1].strip(" {}();,"):  # only exceptions stop here
+                    continue
+                file.lines[number] += line["count"]
                 for k, count in enumerate(forks(line["branches"])):
-                    branches[number, k] += count
+                    file.branches[number, k] += count
     return files
+
+
+class Reason:
+    def __init__(self, text):
+        self.file, self.text, self.why = (part.strip() for part in text.split("|", 2))
+        self.found = self.needed = False
+
+    def holds(self, name, number, text, functions):
+        if name != self.file:
+            return False
+        if not self.text.endswith("()"):
+            return self.text in text
+        call = self.text[:-1]
+        return any(first <= number <= last for function, (first, last) in functions.items()
+                   if function.startswith(call) or re.search(r"[ :*&~]" + re.escape(call), function))
+
+
+def reasons():
+    texts = (root / "tests/not_covered.txt").read_text().splitlines()
+    return [Reason(text) for text in texts if text and not text.startswith("#")]
+
+
+def sort_out(name, file, given):
+    """The lines never reached, without and with a reason; notes which reasons are there and needed."""
+    texts = (source / name).read_text().splitlines()
+    without, explained = [], []
+    for number, count in file.lines.items():
+        mine = [reason for reason in given if reason.holds(name, number, texts[number - 1], file.functions)]
+        for reason in mine:
+            reason.found = True
+            reason.needed |= count == 0
+        if count == 0:
+            (explained if mine else without).append(number)
+    return without, explained
 
 
 def reached(counter):
@@ -72,23 +125,38 @@ def ranges(numbers):
     return " ".join(str(a) if a == b else f"{a}-{b}" for a, b in found)
 
 
-def main():
-    files = counts()
+def table(files):
     folders = collections.defaultdict(lambda: [0, 0, 0, 0])
-    report = []
-    for name, (lines, branches) in sorted(files.items()):
-        sums = *reached(lines), *reached(branches)
+    for name, file in files.items():
         for total in (name.split("/")[0], "all"):
+            sums = *reached(file.lines), *reached(file.branches)
             folders[total] = [a + b for a, b in zip(folders[total], sums)]
-        report.append(row(name, sums[:2], sums[2:]))
-        missed = [number for number, count in lines.items() if count == 0]
-        if missed:
-            report.append("    never: " + ranges(missed))
-    table = [row("src/" + name if name != "all" else name, sums[:2], sums[2:]) for name, sums in
-             sorted(folders.items(), key=lambda item: (item[0] == "all", item[0]))]
-    (build / "report.txt").write_text("\n".join(table + [""] + report) + "\n")
-    print("\n".join(table))
+    return [row("src/" + name if name != "all" else name, sums[:2], sums[2:]) for name, sums in
+            sorted(folders.items(), key=lambda item: (item[0] == "all", item[0]))]
+
+
+def main():
+    files, given = counts(), reasons()
+    report, complaints = table(files) + [""], []
+    print("\n".join(report[:-1]))
+    for name, file in sorted(files.items()):
+        without, explained = sort_out(name, file, given)
+        report.append(row(name, reached(file.lines), reached(file.branches)))
+        if explained:
+            report.append("    never, for a reason: " + ranges(explained))
+        if without:
+            report.append("    never: " + ranges(without))
+            complaints.append(f"src/{name}: never reached, and no reason given: {ranges(without)}")
+    for reason in given:
+        if not reason.found:
+            complaints.append(f"tests/not_covered.txt: no such line: {reason.file} | {reason.text}")
+        elif not reason.needed and not reason.why.startswith("by chance"):
+            complaints.append(f"tests/not_covered.txt: reached by now: {reason.file} | {reason.text}")
+    (build / "report.txt").write_text("\n".join(report) + "\n")
+    if whole_suite:
+        print("\n".join(complaints), end="\n" if complaints else "")
     print(f"uncovered lines: {build / 'report.txt'}")
+    return 1 if whole_suite and complaints else 0
 
 
-main()
+sys.exit(main())

@@ -1,6 +1,7 @@
 // The assembly: where closing threads lie and rings sit, when more than one element joins two nodes.
 #include <gtest/gtest.h>
 
+#include "base/error.hpp"
 #include "input/case_reader.hpp"
 #include "scene/assembly.hpp"
 
@@ -55,6 +56,31 @@ TEST(Assembly, AnEdgeIsTheNetsOwnElementsEvenWhereAThreadRunsBesideIt) {
   }
   EXPECT_DOUBLE_EQ(assembly.lays[1].s, 0.5);
   EXPECT_DOUBLE_EQ(assembly.lays[3].s, 0.5);
+}
+
+// What is said of the case above with one change.
+std::string refusal(const std::string& before, const std::string& after) {
+  std::string text = two_ways;
+  const auto at = text.find(before);
+  EXPECT_NE(at, std::string::npos);
+  text.replace(at, before.size(), after);
+  try {
+    assemble(parse_case(text, "a.toml"));
+  } catch (const CaseError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+TEST(Assembly, WhatDoesNotHangTogetherIsRefused) {
+  const auto expect = [](const std::string& before, const std::string& after, const std::string& words) {
+    const std::string said = refusal(before, after);
+    EXPECT_NE(said.find(words), std::string::npos) << words << "\nin: " << said;
+  };
+  expect("along = [\"net.main.top\"]", "along = [\"net.main.top\", \"net.main.bottom\"]",
+         "'net.main.bottom' does not begin where 'net.main.top' ends");
+  expect("end = { on = \"net.main.knot.1.2\" }", "end = { on = \"net.main.knot.0.2\" }",
+         "thread 'detour' has an element with one and the same node");
 }
 
 }  // namespace

@@ -266,6 +266,11 @@ TEST_F(Program, UsageErrors) {
   EXPECT_FALSE(fs::exists(path("r")));
 }
 
+TEST_F(Program, AnUnknownInstructionSetIsRefused) {
+  EXPECT_EQ(run({"run", "tiny.toml", "--out", "r"}, "export CINCH_ISA=v9; "), 2);
+  EXPECT_TRUE(has(err(), "CINCH_ISA=v9") && has(err(), "base")) << err();
+}
+
 TEST_F(Program, HelpAndVersion) {
   EXPECT_EQ(run({"--help"}), 0);
   for (const char* command : {"run", "check", "info", "report", "compare"}) EXPECT_TRUE(has(out(), command));
@@ -295,6 +300,16 @@ TEST_F(Program, AResultIsNotReplacedUnasked) {
   EXPECT_EQ(run({"run", "tiny.toml", "--out", "r", "--set", "time.end_s=0.0005", "--overwrite", "--quiet"}),
             0);
   EXPECT_EQ(summary("r").at("steps"), 500);
+}
+
+TEST_F(Program, WhatStandsInTheWayIsNamed) {
+  ASSERT_EQ(run({"run", "tiny.toml", "--out", "r", "--quiet"}), 0);
+  fs::remove(path("r/run.xdmf"));
+  fs::create_directories(path("r/run.xdmf/full"));
+  EXPECT_EQ(run({"run", "--restart", "r", "--set", "time.end_s=0.0011"}), 4);
+  EXPECT_TRUE(has(err(), "run.xdmf: cannot replace it: ")) << err();
+  EXPECT_EQ(run({"run", "tiny.toml", "--out", "r", "--overwrite"}), 4);
+  EXPECT_TRUE(has(err(), "run.xdmf: cannot remove it: ")) << err();
 }
 
 TEST_F(Program, InfoAndReportOfNoResult) {

@@ -21,6 +21,7 @@
 #include "output/compare.hpp"
 #include "output/info.hpp"
 #include "output/recorder.hpp"
+#include "output/result_layout.hpp"
 #include "output/result_reader.hpp"
 #include "output/summary_json.hpp"
 #include "output/text_file.hpp"
@@ -764,6 +765,87 @@ TEST(Results, FilesThatAreNotOursAreRefused) {
   for (const char* name : {"none", "text.vtkhdf", "other.vtkhdf"}) {
     EXPECT_NE(refusal(scratch.path / name).find(name), std::string::npos);
   }
+}
+
+template <class T>
+void set_first(hid_t file, const char* name, hid_t type, T value) {
+  const hid_t set = H5Dopen2(file, name, H5P_DEFAULT), space = H5Dget_space(set);
+  std::vector<T> all(static_cast<std::size_t>(H5Sget_simple_extent_npoints(space)));
+  H5Dread(set, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, all.data());
+  all.at(0) = value;
+  H5Dwrite(set, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, all.data());
+  H5Sclose(space);
+  H5Dclose(set);
+}
+
+// Puts one data set in another's place.
+void put(hid_t file, const char* other, const char* name) {
+  H5Ldelete(file, name, H5P_DEFAULT);
+  H5Lcreate_hard(file, other, file, name, H5P_DEFAULT, H5P_DEFAULT);
+}
+
+void set_format_version(hid_t file, int version) {
+  const hid_t group = H5Gopen2(file, layout::kCinch, H5P_DEFAULT), space = H5Screate(H5S_SCALAR);
+  H5Adelete(group, "format_version");
+  const hid_t attribute = H5Acreate2(group, "format_version", H5T_STD_I64LE, space, H5P_DEFAULT, H5P_DEFAULT);
+  H5Awrite(attribute, H5T_NATIVE_INT, &version);
+  H5Aclose(attribute);
+  H5Sclose(space);
+  H5Gclose(group);
+}
+
+TEST(Results, WhatDoesNotFitTogetherIsRefused) {
+  using Damage = std::function<void(hid_t)>;
+  const std::vector<std::pair<std::string, Damage>> damages{
+      {"no such node",
+       [](hid_t f) { set_first<std::int64_t>(f, layout::kConnectivity, H5T_NATIVE_INT64, -1); }},
+      {"no such node",
+       [](hid_t f) { set_first<std::int64_t>(f, layout::kConnectivity, H5T_NATIVE_INT64, 5); }},
+      {"no such part", [](hid_t f) { set_first<std::int32_t>(f, layout::kPart, H5T_NATIVE_INT32, 2); }},
+      {"/cinch/elements/rest_length (unexpected length)",
+       [](hid_t f) { put(f, "/cinch/nodes/mass", "/cinch/elements/rest_length"); }},
+      {"/cinch/parts/kind (unexpected length)",
+       [](hid_t f) { put(f, "/cinch/balls/name", "/cinch/parts/kind"); }},
+      {"/cinch/rings/radius", [](hid_t f) { H5Ldelete(f, "/cinch/rings/radius", H5P_DEFAULT); }},
+      {"result format 9; this program reads format 1", [](hid_t f) { set_format_version(f, 9); }},
+  };
+  for (const auto& [words, damage] : damages) {
+    SCOPED_TRACE(words);
+    const Scratch scratch;
+    record(scratch.path, small_model(5), 1);
+    ASSERT_EQ(refusal(scratch.path), "");
+    const fs::path path = scratch.path / layout::kResultFile;
+    const hid_t file = H5Fopen(path.c_str(), H5F_ACC_RDWR, H5P_DEFAULT);
+    damage(file);
+    H5Fclose(file);
+    const std::string said = refusal(path);
+    EXPECT_NE(said.find(words), std::string::npos) << said;
+    EXPECT_EQ(said.find(path.string()), 0u) << said;
+  }
+}
+
+TEST(Results, AProbeThatIsNotThereIsNamedWithThoseThatAre) {
+  const Scratch scratch;
+  record(scratch.path, small_model(5), 1);
+  try {
+    Result(scratch.path).probe("speed");
+    FAIL();
+  } catch (const FileError& error) {
+    EXPECT_NE(std::string(error.what()).find("no probe column 'speed' (there are: tension_1, height)"),
+              std::string::npos)
+        << error.what();
+  }
+}
+
+TEST(Results, ARecorderIsFinishedOnce) {
+  const Scratch scratch;
+  const ResultModel model = small_model(3);
+  Recorder recorder(scratch.path, model, {});
+  recorder.frame(small_frame(model, 0));
+  recorder.finish(small_summary());
+  EXPECT_THROW(recorder.frame(small_frame(model, 1)), Error);
+  EXPECT_THROW(recorder.finish(small_summary()), Error);
+  EXPECT_EQ(Result(scratch.path).frames(), 1);
 }
 
 TEST(Results, PlaceThatCannotBeWrittenIsNamed) {

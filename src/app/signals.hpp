@@ -1,4 +1,4 @@
-// SIGINT, SIGTERM and SIGHUP ask a run to stop after the step at hand; a second SIGINT ends it at once.
+// SIGINT, SIGTERM and SIGHUP ask a run to stop after the step at hand; a second one ends it at once.
 #pragma once
 
 namespace cinch::app {

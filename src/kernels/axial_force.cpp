@@ -62,10 +62,11 @@ void axial_spans(const AxialArguments& g, const Span* spans, Index begin, Index 
 }
 
 template <Book::Sum book>
-inline void book_link(const AxialArguments& g, const Link& l, const Axial& item, double& before) {
+inline void book_link(const AxialArguments& g, const Link& l, const Axial& item, Index i) {
   double& row = g.booked[l.row * lanes];
   if (with_energy(book)) row += item.energy;
   if (!with_power(book)) return;
+  double& before = g.link_damper[i];  // there only where there are dampers
   (book == Book::power ? row : g.due[l.row * lanes]) += 0.5 * (item.damper + before) * item.rate;
   if (book == Book::power) before = item.damper;
 }
@@ -81,7 +82,7 @@ void axial_links(const AxialArguments& g, const Link* links, Index begin, Index 
     g.fx[l.force] = item.per_length * r.x;
     g.fy[l.force] = item.per_length * r.y;
     g.fz[l.force] = item.per_length * r.z;
-    if (book != Book::nothing && l.row >= 0) book_link<book>(g, l, item, g.link_damper[i]);
+    if (book != Book::nothing && l.row >= 0) book_link<book>(g, l, item, i);
   }
 }
 

@@ -105,10 +105,11 @@ class Program : public testing::Test {
     return child;
   }
 
+  static int code_of(int status) { return WIFEXITED(status) ? WEXITSTATUS(status) : 1000 + WTERMSIG(status); }
   static int wait_for(pid_t child) {
     int status = 0;
     waitpid(child, &status, 0);
-    return WIFEXITED(status) ? WEXITSTATUS(status) : 1000 + WTERMSIG(status);
+    return code_of(status);
   }
 
   int run(const Words& words, const std::string& before = "") const { return wait_for(start(words, before)); }

@@ -1,0 +1,54 @@
+// `cinch report` and `cinch check` on the paper's own cases, which most of the page is written for.
+#include "support/program.hpp"
+
+namespace {
+
+using namespace cinch::test;
+
+class Reported : public Program {
+ protected:
+  void simulate(const std::string& name, const std::string& out, const Words& sets) const {
+    Words words{"run", CINCH_SOURCE_DIR "/cases/" + name + ".toml", "--quiet", "--out", out};
+    for (const std::string& set : sets) words.insert(words.end(), {"--set", set});
+    ASSERT_EQ(run(words), 0) << err();
+  }
+};
+
+TEST_F(Reported, OnePageAndOneTableForSeveralResults) {
+  for (const char* elements : {"50", "100", "200", "300"})
+    simulate("ring_pull", std::string("r") + elements,
+             {"time.end_s=0.05", std::string("thread.main.elements=") + elements});
+  ASSERT_EQ(run({"report", "r50", "r100", "r200", "r300", "--html", "page.html", "--table", "table.md"}), 0)
+      << err();
+  EXPECT_TRUE(has(out(), "report: page.html")) << out();
+  const std::string page = text_of(path("page.html")), table = text_of(path("table.md"));
+  EXPECT_TRUE(has(page, "Verdict") && has(page, "No frame at"));
+  EXPECT_TRUE(table.starts_with("| ring_pull | place | paper | Cinch | verdict |")) << table;
+  EXPECT_TRUE(has(table, "(50 elements) | Fig. 9 | 4 N |")) << table;
+}
+
+TEST_F(Reported, ClosingTimesSideBySide) {
+  for (const char* time : {"0.02", "0.04"})
+    simulate("capture", std::string("c") + time,
+             {std::string("closing.time_s=") + time, "time.end_s=0.46", "output.frame_interval_s=0.02"});
+  ASSERT_EQ(run({"report", "c0.02", "c0.04", "--open", "c0.04"}), 0) << err();
+  const std::string page = text_of(path("c0.02/report.html"));
+  EXPECT_TRUE(has(page, "Closing times")) << out();
+  EXPECT_TRUE(has(page, "0.42 s") && has(page, "0.44 s")) << "0.4 s after each";
+}
+
+TEST_F(Reported, CheckLooksBeyondTheClosing) {
+  const std::string capture = CINCH_SOURCE_DIR "/cases/capture.toml";
+  ASSERT_EQ(run({"check", capture}), 0) << err();
+  EXPECT_TRUE(has(out(), "closing          at 1.5 s: ") && has(out(), "expected time")) << out();
+}
+
+TEST_F(Reported, CheckTellsThatTheMotionGoesWrong) {
+  ASSERT_EQ(run({"check", "tiny.toml", "--set", "time.step_s=1.25e-5", "--set", "time.allow_unstable=true",
+                 "--set", "time.end_s=1"}),
+            0)
+      << err();
+  EXPECT_TRUE(has(out(), "expected time    unknown, the trial of some thousand steps stopped: ")) << out();
+}
+
+}  // namespace
