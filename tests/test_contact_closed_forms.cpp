@@ -2,10 +2,12 @@
 // contact counted once. Each tolerance is followed by the reason for its size.
 #include <gtest/gtest.h>
 
+#include <Eigen/Eigenvalues>
 #include <cmath>
 #include <numbers>
 #include <string>
 
+#include "kernels/contact_item.hpp"
 #include "support/scenes.hpp"
 
 namespace cinch {
@@ -323,6 +325,33 @@ TEST(SharedNode, GoldenSectionDoesNotMissAnEndInContact) {
   const double deep = 0.4 * ring_stiffness() * std::pow(0.9 * touch, 2.5);
   EXPECT_NEAR(energy(DistanceMethod::exact) / deep, 1, 1e-9);
   EXPECT_NEAR(energy(DistanceMethod::golden) / deep, 1, 1e-9);
+}
+
+// An element with both ends in contact has, of the mass 1 / share of a node, the node's fraction; its use of
+// the step is the greatest eigenvalue of its stiffness against that. The deeper end b is its closest point or
+// nearly so.
+TEST(SharedNode, BothEndsInContactUseWhatTheirStiffnessNeeds) {
+  for (const double t : {0.5, 0.7, 1.0})
+    for (const double lighter : {0.2, 1.0})
+      for (const double shallow : {0.1, 0.6, 1.0})
+        for (const double fraction : {0.25, 0.5, 1.0}) {
+          kernel::Pair pair{};
+          pair.fraction_a = fraction, pair.fraction_b = 0.5;
+          const double share_a = 1 / lighter, share_b = 1, kappa = 3;
+          const Eigen::Vector2d p(1 - t, t), e(0, 1), own(fraction * std::sqrt(shallow), 0.5);
+          const Eigen::Vector2d mass(fraction / share_a, 0.5 / share_b);
+          const Eigen::Matrix2d own_stiffness = own.asDiagonal();
+          const Eigen::Matrix2d stiffness = kappa * (p * p.transpose() - e * e.transpose() + own_stiffness);
+          const Eigen::Vector2d root = mass.cwiseSqrt().cwiseInverse();
+          const double needed = (root.asDiagonal() * stiffness * root.asDiagonal())
+                                    .eval()
+                                    .selfadjointView<Eigen::Lower>()
+                                    .eigenvalues()
+                                    .maxCoeff();
+          const double used = plain::thread_share_of_both(pair, kappa, t, 1, shallow, 1, share_a, share_b);
+          EXPECT_GE(used, needed * (1 - 1e-12)) << t << " " << lighter << " " << shallow << " " << fraction;
+          EXPECT_LT(used, 3 * needed) << t << " " << lighter << " " << shallow << " " << fraction;
+        }
 }
 
 TEST(SharedNode, ForceOnTheRingIsMinusTheThreads) {
