@@ -33,8 +33,8 @@ void print_row(const ErrorEstimate::Row& row) {
 void print_error(const ErrorEstimate& estimate) {
   std::printf(
       "error            differences from runs with half the step, with twice the elements in threads "
-      "besides, and "
-      "what chance makes of both\n");
+      "besides, "
+      "and what chance makes of both\n");
   std::printf("  %-24s %-19s %14s %10s %10s %10s %10s\n", "what", "measure", "size", "step", "threads",
               "chance", "error");
   bool chance = false;

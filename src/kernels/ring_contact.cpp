@@ -70,7 +70,7 @@ struct PairLoads {
   V3 a{0, 0, 0}, b{0, 0, 0}, host_a{0, 0, 0}, host_b{0, 0, 0};
 };
 
-// Adds the contact of the point at t as far as it counts; returns the law's result for the watch.
+// Adds the contact of a point as far as it counts; returns the law's result for the watch.
 inline ContactForce add_contact(const RingArguments& g, const RingMotion& ring, double radius, const Pair& c,
                                 const CirclePoint& point, ContactWeight weight, PairLoads& loads,
                                 RingSum& sum) {

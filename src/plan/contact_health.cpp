@@ -1,11 +1,8 @@
 #include "plan/contact_health.hpp"
 
-#include <algorithm>
-#include <cmath>
 #include <cstdio>
 
 #include "base/error.hpp"
-#include "plan/health.hpp"
 
 namespace cinch {
 namespace {

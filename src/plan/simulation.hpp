@@ -36,8 +36,7 @@ class Simulation {
   /// Everything a frame holds, closing threads laid on their carriers before the closing time.
   Frame frame(const Look& now);
   Frame frame() { return frame(look()); }
-  /// Throws NumericalError when the energy residual, or what contacts hold or have taken below zero, is
-  /// beyond the case's limit; without ledger never.
+  /// Throws NumericalError when the energy residual is beyond the case's limit; without ledger never.
   void check_energy(const Look& now);
   /// One value for each column of `probe_columns`.
   std::vector<double> probe_row(const Look& now);

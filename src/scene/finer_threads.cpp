@@ -15,13 +15,13 @@ void renumber(std::string& reference, const std::vector<std::string>& finer, int
   }
 }
 
-}  // namespace
-
 bool carries_ring(const Scene& scene, const Thread& thread) {
   return std::any_of(scene.rings.begin(), scene.rings.end(), [&](const Ring& ring) {
     return ring.host == RingHost::element && ring.element_of == "thread." + thread.name;
   });
 }
+
+}  // namespace
 
 Scene finer_threads(Scene scene, int factor) {
   std::vector<std::string> finer;

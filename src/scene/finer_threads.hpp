@@ -9,7 +9,4 @@ namespace cinch {
 /// so do nets: rings ride in the middle of an element, and a finer one would lie elsewhere.
 Scene finer_threads(Scene scene, int factor);
 
-/// Whether a ring rides on an element of the thread.
-bool carries_ring(const Scene& scene, const Thread& thread);
-
 }  // namespace cinch

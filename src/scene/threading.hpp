@@ -23,8 +23,9 @@ struct LaidAlong {
 
 /// Finds the threads of all rings with sliding joints, which then have contact with none. A closing thread
 /// goes through the rings on what it is laid along; any other through those whose plane it crosses inside the
-/// opening. `carriers`: by the closing thread's part. Throws CaseError for a ring without thread, with a
-/// thread that it cannot hold or that passes more than once.
+/// opening. A ring with an automatic joint slides where all threads that it names, or one of all, pass
+/// through it once and with room. `carriers`: by the closing thread's part. Throws CaseError for a ring
+/// without thread, with a thread that it cannot hold or that passes more than once.
 void thread_rings(const Scene& scene, const std::map<Index, LaidAlong>& carriers, Assembly& assembly);
 
 }  // namespace cinch

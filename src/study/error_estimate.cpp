@@ -8,10 +8,10 @@
 #include <limits>
 
 #include "base/error.hpp"
-#include "study/picture.hpp"
 #include "plan/probes.hpp"
-#include "study/run_track.hpp"
 #include "scene/finer_threads.hpp"
+#include "study/picture.hpp"
+#include "study/run_track.hpp"
 
 namespace cinch {
 namespace {
