@@ -58,6 +58,28 @@ TEST(Assembly, AnEdgeIsTheNetsOwnElementsEvenWhereAThreadRunsBesideIt) {
   EXPECT_DOUBLE_EQ(assembly.lays[3].s, 0.5);
 }
 
+TEST(Assembly, AThreadHangsOnALauncher) {
+  const Assembly assembly = assemble(parse_case(std::string(two_ways) + R"([mechanism.m]
+corner = "net.main.top_right"
+launcher_mass_kg = 0.05
+split_mass_kg = 0.1
+towing_material = "m"
+towing_diameter_m = 0.002
+separation_a_m_s = [0, 0, 0]
+separation_b_m_s = [0, 0, 0]
+[thread.tail]
+material = "m"
+diameter_m = 0.002
+elements = 2
+points_m = [[1, 1, 0], [1, 1, 1]]
+start = { on = "mechanism.m.launcher" }
+)",
+                                                "launcher.toml"));
+  const Index launcher = assembly.node_of("mechanism.m.launcher");
+  EXPECT_EQ(assembly.node_of("thread.tail.start"), launcher);
+  EXPECT_NEAR(assembly.nodes[static_cast<std::size_t>(launcher)].mass, 0.05, 0.005);
+}
+
 // What is said of the case above with one change.
 std::string refusal(const std::string& before, const std::string& after) {
   std::string text = two_ways;

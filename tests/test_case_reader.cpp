@@ -422,6 +422,16 @@ TEST(CaseReader, FaultyOverridesAreNamed) {
                {{"thread.main", "4"}});
   expect_error(minimal, {"--set case.title=\xC3\xA4: error: only ASCII"}, {{"case.title", "\xC3\xA4"}});
   expect_error(minimal, {"--set schema=2: error: schema: found 2"}, {{"schema", "2"}});
+  expect_error(minimal,
+               {"--set thread.main.start={ mass_kg = -1 }: error: thread.main.start.mass_kg: found -1"},
+               {{"thread.main.start", "{ mass_kg = -1 }"}});
+}
+
+TEST(CaseReader, NodesAreTables) {
+  const std::string instead = ", allowed: a table of the keys of a node";
+  for (const std::string key : {"start", "node", "node.3"})
+    expect_error(minimal, {"thread.main." + key + ": found 5 (integer)" + instead},
+                 {{"thread.main." + key, "5"}});
 }
 
 TEST(CaseReader, AnOverrideCannotSmuggleInOtherKeys) {

@@ -1,4 +1,5 @@
 // Checkpoint files: they hold what was saved, stay whole whatever happens, and damage is told.
+#include <fcntl.h>
 #include <gtest/gtest.h>
 
 #include <filesystem>
@@ -9,6 +10,7 @@
 
 #include "base/error.hpp"
 #include "output/checkpoint.hpp"
+#include "output/descriptor.hpp"
 
 namespace {
 
@@ -168,6 +170,24 @@ TEST(Checkpoint, FieldsThatDoNotFitAreNamed) {
   EXPECT_EQ(said([&] { in.whole("yes", number, 2, 9); }), file + "yes holds 1; allowed: 2 to 9");
   EXPECT_NE(said([&] { in.texts("a/numbers", words); }), "nothing");
   EXPECT_NE(said([&] { in.value("words", one); }), "nothing");
+}
+
+TEST(Descriptor, TellsTheSystemsReason) {
+  const auto said = [](auto&& use) {
+    try {
+      use();
+    } catch (const FileError& error) {
+      return std::string(error.what());
+    }
+    return std::string();
+  };
+  std::vector<std::uint8_t> bytes(10);
+  EXPECT_EQ(said([&] { Descriptor("/dev/full", O_WRONLY).write_at(0, bytes); }),
+            "error: /dev/full: cannot write it: No space left on device");
+  EXPECT_EQ(said([&] { Descriptor("/", O_RDONLY | O_DIRECTORY).read_at(0, bytes); }),
+            "error: /: cannot read it: Is a directory");
+  EXPECT_EQ(said([&] { Descriptor("/dev/full", O_WRONLY).sync(); }),
+            "error: /dev/full: cannot write it: Invalid argument");
 }
 
 TEST(Checkpoint, APlaceThatCannotBeWrittenIsNamed) {

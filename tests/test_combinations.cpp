@@ -14,6 +14,8 @@
 #include "input/case_reader.hpp"
 #include "plan/simulation.hpp"
 #include "store/fields.hpp"
+#include "support/quick_cases.hpp"
+#include "support/scenes.hpp"
 
 namespace cinch {
 namespace {
@@ -150,6 +152,31 @@ time_s = )" + time + "\n",
   EXPECT_EQ(state_hash(soon.state()), state_hash(next.state()));
   EXPECT_NEAR(soon.summary().energy.work_separation, 0.1 * 5, 1e-9);  // once, not twice
   EXPECT_EQ(run("0").preparation().closing_step, 0);
+}
+
+// The deployed net flies at 0.8 m/s along Z and closes at once. Events until `end`, in s.
+std::vector<std::string> events_around(const std::string& ball, double end) {
+  test::Case one = test::sliding(
+      {"capture",
+       {{"net.main.stowed_factor", "1"}, {"closing.time_s", "0.05"}, {"target.ball.center_m", ball}},
+       0},
+      12, "6.8e-6", 0);
+  Simulation simulation(test::read(one), 1);
+  for (double t = 0.02; t <= end; t += 0.02) {
+    test::run_until(simulation, t);
+    simulation.note_events(simulation.look());
+  }
+  std::vector<std::string> kinds;
+  for (const Event& event : simulation.summary().events)
+    if (event.kind != "ring_contact" && event.kind != "separation") kinds.push_back(event.kind);
+  return kinds;
+}
+
+TEST(Combinations, ATargetIsEnclosedOnceTheMouthHasClosedBehindIt) {
+  using Kinds = std::vector<std::string>;
+  EXPECT_EQ(events_around("[0, 0, 0.25]", 0.36),
+            (Kinds{"target_contact", "mouth_closed", "target_enclosed"}));
+  EXPECT_EQ(events_around("[0, 0, -0.25]", 0.36), Kinds{"mouth_closed"}) << "the net flies away from it";
 }
 
 TEST(Combinations, TowingThreadAndLaunchShareTheDiagonalOfAnOblongNet) {

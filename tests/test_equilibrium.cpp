@@ -409,6 +409,11 @@ TEST(Equilibrium, ArraysThatDoNotFitAreRefused) {
   EXPECT_NE(error_of(net).find("element 3"), std::string::npos);
   net.stiffness.pop_back();
   EXPECT_NE(error_of(net).find("differ in length"), std::string::npos);
+  net = square_net(2, 0.1);
+  net.position[4].z() = std::nan("");
+  EXPECT_NE(error_of(net).find("bad position, mass or axis of node 4"), std::string::npos) << error_of(net);
+  net.mass.pop_back();
+  EXPECT_NE(error_of(net).find("differ in length"), std::string::npos);
 }
 
 TEST(Equilibrium, NothingToMove) {

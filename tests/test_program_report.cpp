@@ -37,6 +37,19 @@ TEST_F(Reported, ClosingTimesSideBySide) {
   EXPECT_TRUE(has(page, "0.42 s") && has(page, "0.44 s")) << "0.4 s after each";
 }
 
+// The first tenths of a second; rings hang on the upper edge, masses on the thread through them.
+TEST_F(Reported, HeightsOfAnEdgeThatCloses) {
+  simulate("edge_closure", "e",
+           {"time.end_s=0.1", "output.frame_interval_s=0.02", "rings.r.joint=sliding", "time.step_s=auto",
+            "thread.closing.elements=24"});
+  ASSERT_EQ(run({"report", "e", "--table", "table.md"}), 0) << err();
+  const std::string page = text_of(path("e/report.html"));
+  for (const char* words : {"Heights of the two masses", "Greatest distance between ring centres",
+                            "Contact force on the rings", "right mass", "bunched"})
+    EXPECT_TRUE(has(page, words)) << words;
+  EXPECT_TRUE(has(text_of(path("table.md")), "| Greatest speed in the net at the start |"));
+}
+
 TEST_F(Reported, CheckLooksBeyondTheClosing) {
   const std::string capture = CINCH_SOURCE_DIR "/cases/capture.toml";
   ASSERT_EQ(run({"check", capture}), 0) << err();

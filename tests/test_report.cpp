@@ -16,9 +16,11 @@
 #include "report/assets.hpp"
 #include "report/charts.hpp"
 #include "report/html.hpp"
+#include "report/measure.hpp"
 #include "report/net_picture.hpp"
 #include "report/net_view.hpp"
 #include "report/open_inputs.hpp"
+#include "report/page.hpp"
 #include "report/report.hpp"
 #include "report/verdict.hpp"
 
@@ -244,6 +246,76 @@ TEST(Report, The_range_over_open_inputs_names_its_ends) {
   EXPECT_EQ(verdict_on({slack}, "capture.ring1_force", ranges), Verdict::within_open_inputs);
 }
 
+TEST(Report, A_badge_has_the_colour_of_its_verdict) {
+  Digest weak = capture();
+  weak.summary->ring_records[0].first_contact_force = 5;
+  const auto rows = compare_with_paper({weak}, {{"capture.ring1_force", {3, 50, "towing thread"}}});
+  const std::string table = page::paper_table(rows, false);
+  EXPECT_NE(table.find("<span class=\"badge fair\">within the open inputs</span>"), std::string::npos);
+  EXPECT_NE(table.find("<span class=\"badge good\">reproduced</span>"), std::string::npos);
+  const std::string pull = page::paper_table(compare_with_paper({good_pull()}), false);
+  EXPECT_NE(pull.find("<span class=\"badge good\">converges</span>"), std::string::npos);
+}
+
+TEST(Report, Peaks_of_every_step_are_preferred_to_samples) {
+  Digest d = good_pull();
+  d.ring_force[0].v[50] = Vec3(0, 3, -4);
+  EXPECT_EQ(measure::peak_ring_force(d).value, 1.5);
+  d.summary.reset();
+  EXPECT_EQ(measure::peak_ring_force(d).value, 5);
+  EXPECT_EQ(measure::peak_ring_force(d).note, "from probe only: the true peak may be higher");
+  d.ring_force.clear();
+  EXPECT_FALSE(measure::peak_ring_force(d).value);
+}
+
+TEST(Report, Cases_are_known_by_what_they_hold) {
+  ResultModel model;
+  model.case_name = "mine";
+  model.parts = {{"net", "main", false}};
+  model.rings.resize(16);
+  model.balls.resize(1);
+  model.node_mass.resize(100);
+  EXPECT_EQ(recognise(model), PaperCase::none) << "it never closes";
+  model.closing_time = 1;
+  EXPECT_EQ(recognise(model), PaperCase::capture);
+  model.rings.resize(4);
+  model.balls.clear();
+  model.masses.resize(2);
+  EXPECT_EQ(recognise(model), PaperCase::edge_closure);
+  model.rings.resize(1);
+  model.masses.resize(1);
+  EXPECT_EQ(recognise(model), PaperCase::none);
+  model.parts = {{"thread", "main", false}};
+  EXPECT_EQ(recognise(model), PaperCase::ring_pull);
+}
+
+TEST(Report, A_capture_without_its_mechanisms_or_rings_has_gaps_that_are_named) {
+  Digest d = capture();
+  d.model.masses.clear();
+  d.mass_velocity.clear();
+  d.mass_position.clear();
+  EXPECT_FALSE(measure::split_masses(d));
+  EXPECT_EQ(verdict_on({d}, "capture.jump_x"), Verdict::missing);
+  d.model.rings.clear();
+  std::string notes;
+  for (const Plot& plot : figure_plots({d})) notes += plot.note;
+  EXPECT_NE(notes.find("The result has no ring 2."), std::string::npos) << notes;
+}
+
+TEST(Report, A_mouth_has_its_figure_in_any_case) {
+  Digest d;
+  EXPECT_TRUE(figure_plots({d}).empty());
+  d.mouth_area = {{0, 1, 2}, {1, 0.5, 0.01}};
+  d.frame_times = {0, 1, 2};
+  d.summary.emplace();
+  d.summary->events = {{1.9, "mouth_closed", ""}, {0.2, "target_contact", "ball"}};
+  const auto plots = figure_plots({d});
+  ASSERT_EQ(plots.size(), 1u);
+  EXPECT_EQ(plots[0].curves[0].points.v, d.mouth_area.v);
+  ASSERT_EQ(plots[0].marks.size(), 2u);
+  EXPECT_EQ(plots[0].marks[0].label, "touches target") << "in the order of time";
+}
+
 TEST(Report, Later_closing_times_reach_further) {
   EXPECT_EQ(verdict_on({capture(1.5), capture(1.2), capture(1.6)}, "capture.later_further"),
             Verdict::reproduced);
@@ -288,6 +360,7 @@ TEST(Report, Numbers_as_people_write_them) {
   EXPECT_EQ(html::number(1183, 3), "1183");
   EXPECT_EQ(html::number(NAN), "–");
   EXPECT_EQ(html::duration(250), "4 min 10 s");
+  EXPECT_EQ(html::duration(7510), "2 h 5 min");
   EXPECT_EQ(escape_markup("<a href=\"x\">&"), "&lt;a href=&quot;x&quot;&gt;&amp;");
   EXPECT_EQ(html::script_safe("'</script><!--'"), "'<\\/script><\\!--'");
   const std::string bytes = "any carnal pleas";

@@ -59,10 +59,9 @@ void expect_same_summary(Summary a, Summary b) {
 }
 
 // Stopped at several steps on the way, by turns with one, two and three threads.
-void expect_goes_on(const Case& one, const std::vector<std::int64_t>& stops) {
-  const Scene scene = read(one);
+void expect_goes_on(const Scene& scene, std::int64_t steps, const std::vector<std::int64_t>& stops) {
   Simulation whole(scene, 1);
-  advance(whole, one.steps);
+  advance(whole, steps);
   const Outcome expected = outcome_of(whole);
   const Summary summary = whole.summary();
   Simulation begin(scene, 2);
@@ -73,13 +72,17 @@ void expect_goes_on(const Case& one, const std::vector<std::int64_t>& stops) {
     SCOPED_TRACE(std::to_string(threads) + " threads from step " + std::to_string(stops[k - 1]));
     Simulation next = restored(scene, threads, entries);
     ASSERT_EQ(next.step(), stops[k - 1]);
-    const std::int64_t until = k < stops.size() ? stops[k] : one.steps;
+    const std::int64_t until = k < stops.size() ? stops[k] : steps;
     advance(next, until);
     entries = saved(next);
     if (k < stops.size()) continue;
     expect_same(outcome_of(next), expected);
     expect_same_summary(next.summary(), summary);
   }
+}
+
+void expect_goes_on(const Case& one, const std::vector<std::int64_t>& stops) {
+  expect_goes_on(read(one), one.steps, stops);
 }
 
 TEST(Restart, RingPull) { expect_goes_on(ring_pull(), {0, 1, 100, 201, 399}); }
@@ -94,6 +97,30 @@ TEST(Restart, SlidingRingPull) {
   expect_goes_on(one, {1, 1501, 3777, 5001});
 }
 TEST(Restart, SlidingCapture) { expect_goes_on(sliding_capture(), {20, 26, 1111, 5003}); }
+
+// A mass with a radius hits the target 0.1 ms after the start; its thread touches nothing.
+Scene thrown_sphere() {
+  Scene scene = scene_of(R"(schema = 1
+[time]
+end_s = 1
+step_s = 1e-6
+[material.m]
+youngs_modulus_Pa = 1e9
+density_kg_m3 = 970
+[thread.main]
+material = "m"
+diameter_m = 0.002
+elements = 10
+points_m = [[0, 0, 0.1201], [0.3, 0, 0.1201]]
+start = { mass_kg = 0.05, radius_m = 0.02, velocity_m_s = [0, 0, -1] }
+[target.ball]
+center_m = [0, 0, 0]
+radius_m = 0.1
+youngs_modulus_Pa = 1e7
+)");
+  return scene;
+}
+TEST(Restart, AMassThatTouches) { expect_goes_on(thrown_sphere(), 600, {50, 150, 333}); }
 
 // Each step is a stop: whatever a step leaves behind is saved.
 TEST(Restart, AfterEachStep) {
@@ -194,6 +221,23 @@ TEST(Restart, RefusalsNameTheFieldAndWhatIsAllowed) {
   EXPECT_NE(refused([](Entries& e) { list<std::int64_t>(e, "contacts/element").pop_back(); }), "");
   EXPECT_NE(refused([](Entries& e) { list<std::int64_t>(e, "contacts/element")[0] = 0; }), "");
   EXPECT_NE(refused([](Entries& e) { list<std::string>(e, "events/name").pop_back(); }), "");
+  EXPECT_EQ(refused([](Entries& e) {
+              list<std::int64_t>(e, "contacts/element").pop_back();
+              --list<std::int64_t>(e, "contacts/target_begin").back();
+            }),
+            "error: memory: targets does not fit the pairs of contacts");
+}
+
+TEST(Restart, RefusesContactsOfAMassThatHasNone) {
+  const Scene scene = thrown_sphere();
+  Simulation simulation(scene, 1);
+  advance(simulation, 150);
+  Entries entries = saved(simulation);
+  auto& touching = list<std::int64_t>(entries, "contacts/element");
+  ASSERT_EQ(std::count_if(touching.begin(), touching.end(), [](std::int64_t label) { return label < 0; }), 1);
+  for (std::int64_t& label : touching)
+    if (label < 0) label = kernel::sphere_label(3);
+  EXPECT_EQ(refusal(scene, entries), "error: memory: contacts/element names a mass that has no such contact");
 }
 
 TEST(Restart, RefusesRingsOutOfTheirOrderAlongTheThread) {

@@ -14,6 +14,7 @@
 #include <functional>
 #include <limits>
 #include <random>
+#include <regex>
 #include <sstream>
 #include <thread>
 
@@ -717,6 +718,36 @@ TEST(Results, CompareSaysWhichShapesDiffer) {
   }
 }
 
+TEST(Results, CompareSeesOtherEndsOfElements) {
+  const Scratch scratch;
+  ResultModel model = small_model(5);
+  record(scratch.path / "a", model, 1);
+  std::swap(model.elements[2][0], model.elements[2][1]);
+  record(scratch.path / "b", model, 1);
+  std::ostringstream text;
+  print_comparison(compared(scratch.path / "a", scratch.path / "b"), text);
+  EXPECT_NE(text.str().find("the elements join different nodes"), std::string::npos) << text.str();
+}
+
+TEST(Results, CompareSeesHowRunsWentAndEnded) {
+  const Scratch scratch;
+  const ResultModel model = small_model(3);
+  for (const char* name : {"a", "b"}) {
+    Recorder recorder(scratch.path / name, model, {});
+    recorder.frame(small_frame(model, 0));
+    Summary summary = small_summary();
+    summary.events = {{0.1, "ring_contact", "r1"},
+                      {0.2, *name == 'a' ? "ring_contact" : "mouth_closed", "r2"}};
+    if (*name == 'b') summary.status = "failed";
+    recorder.finish(summary);
+  }
+  std::ostringstream text;
+  print_comparison(compared(scratch.path / "a", scratch.path / "b"), text);
+  for (const char* words :
+       {"status: done in A, failed in B", "event 1: ring_contact r2 in A, mouth_closed r2 in B"})
+    EXPECT_NE(text.str().find(words), std::string::npos) << words << "\n" << text.str();
+}
+
 TEST(Results, CompareSeesTheStateHashAndAMissingEnd) {
   const Scratch scratch;
   const ResultModel model = small_model(3);
@@ -742,6 +773,27 @@ TEST(Results, InfoNamesWhatIsThere) {
                            "elements", "75.0 %", "done", "0x0123456789abcdef", "r2: never touched"}) {
     EXPECT_NE(text.str().find(part), std::string::npos) << part << "\n" << text.str();
   }
+}
+
+TEST(Results, InfoOfARunWithoutFramesAndLedger) {
+  const Scratch scratch;
+  Recorder recorder(scratch.path, small_model(5), {});
+  Summary summary = small_summary();
+  summary.relative_residual = std::nan("");
+  recorder.finish(summary);
+  std::ostringstream text;
+  print_info(Result(scratch.path), text);
+  EXPECT_TRUE(std::regex_search(text.str(), std::regex("frames +none"))) << text.str();
+  EXPECT_NE(text.str().find("no ledger kept"), std::string::npos) << text.str();
+}
+
+TEST(Results, ASummaryBesideTheFileStandsInForOneInIt) {
+  const Scratch scratch;
+  record(scratch.path, small_model(5), 1);
+  const hid_t file = H5Fopen((scratch.path / layout::kResultFile).c_str(), H5F_ACC_RDWR, H5P_DEFAULT);
+  H5Ldelete(file, layout::kSummary, H5P_DEFAULT);
+  H5Fclose(file);
+  EXPECT_EQ(Result(scratch.path).summary()->state_hash, small_summary().state_hash);
 }
 
 std::string refusal(const fs::path& path) {
@@ -846,6 +898,26 @@ TEST(Results, ARecorderIsFinishedOnce) {
   EXPECT_THROW(recorder.frame(small_frame(model, 1)), Error);
   EXPECT_THROW(recorder.finish(small_summary()), Error);
   EXPECT_EQ(Result(scratch.path).frames(), 1);
+}
+
+TEST(Results, TextFilesTellWhyNot) {
+  const Scratch scratch;
+  const auto said = [](auto&& use) {
+    try {
+      use();
+    } catch (const FileError& error) {
+      return std::string(error.what());
+    }
+    return std::string();
+  };
+  const fs::path nowhere = scratch.path / "none" / "page.html";
+  EXPECT_EQ(said([&] { read_text_file(nowhere); }),
+            nowhere.string() + ": cannot read it: No such file or directory");
+  EXPECT_EQ(said([&] { replace_text_file(nowhere, "x"); }),
+            nowhere.string() + ".tmp: cannot write it: No such file or directory");
+  fs::create_directories(scratch.path / "folder" / "inside");
+  EXPECT_NE(said([&] { replace_text_file(scratch.path / "folder", "x"); }).find("cannot replace it: "),
+            std::string::npos);
 }
 
 TEST(Results, PlaceThatCannotBeWrittenIsNamed) {

@@ -87,7 +87,7 @@ void CaseBuilder::check_top_level() {
       fail(member.value.members[max_parts].key_place,
            "the case has " + std::to_string(member.value.members.size()) + " [" + member.key +
                ".NAME], allowed: <= " + std::to_string(max_parts));
-      diagnostics_.throw_if_any();
+      diagnostics_.throw_all();
     } else if ((*info)->named) {
       for (const TomlMember& part : member.value.members) {
         const std::string path = member.key + "." + toml_key(part.key);

@@ -30,8 +30,7 @@ TomlValue parse(std::string_view text, Diagnostics& diagnostics) {
     return parse_toml(text);
   } catch (const TomlError& error) {
     diagnostics.error(error.place, error.what);
-    diagnostics.throw_if_any();
-    throw;
+    diagnostics.throw_all();
   }
 }
 

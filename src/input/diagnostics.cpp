@@ -33,7 +33,7 @@ std::string shortened(const std::string& text) {
 
 void Diagnostics::error(Place place, const std::string& message, const std::string& help) {
   errors_.push_back({place, shortened(message), printable(help)});
-  if (errors_.size() >= max_kept) throw_if_any();
+  if (errors_.size() >= max_kept) throw_all();
 }
 
 std::string Diagnostics::where(Place place) const {
@@ -67,8 +67,7 @@ std::string Diagnostics::format(const Entry& entry) const {
          (entry.help.empty() ? "" : "\n    " + entry.help);
 }
 
-void Diagnostics::throw_if_any() const {
-  if (errors_.empty()) return;
+void Diagnostics::throw_all() const {
   std::vector<Entry> sorted = errors_;
   std::stable_sort(sorted.begin(), sorted.end(),
                    [](const Entry& a, const Entry& b) { return order_of(a.place) < order_of(b.place); });

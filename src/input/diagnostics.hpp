@@ -25,9 +25,11 @@ class Diagnostics {
   /// thousand.
   void error(Place place, const std::string& message, const std::string& help = "");
   bool empty() const { return errors_.empty(); }
-  /// Throws CaseError with the first 20 errors, overrides first, then in the order of the file, if there are
-  /// any.
-  void throw_if_any() const;
+  /// Throws CaseError with the first 20 errors, overrides first, then in the order of the file.
+  [[noreturn]] void throw_all() const;
+  void throw_if_any() const {
+    if (!empty()) throw_all();
+  }
   /// "file:line:column", or "--set key=value".
   std::string where(Place place) const;
 

@@ -77,7 +77,7 @@ NodeSpec CaseBuilder::read_node(const std::string& path, const TomlMember& membe
   }
   if (sections_.size() >= max_tables) {
     fail(member.key_place, "the case has more than " + std::to_string(max_tables) + " parts and nodes");
-    diagnostics_.throw_if_any();
+    diagnostics_.throw_all();
   }
   node.source.text = diagnostics_.where(member.key_place);
   sections_.push_back(

@@ -80,11 +80,6 @@ std::optional<std::pair<int, int>> knot_of(const std::string& place) {
   return std::pair(*column, *row);
 }
 
-bool is_net_place(const std::string& place) {
-  static const std::array<const char*, 4> corners = {"top_left", "top_right", "bottom_right", "bottom_left"};
-  return std::find(corners.begin(), corners.end(), place) != corners.end() || knot_of(place);
-}
-
 Reference::Reference(const std::string& text) {
   const std::size_t first = std::min(text.find('.'), text.size());
   const std::size_t second = std::min(text.find('.', first + 1), text.size());

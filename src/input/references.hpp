@@ -67,8 +67,6 @@ class References {
   std::set<std::string> incomplete_;
 };
 
-/// Whether `place` is a node of a net by its form: a corner or "knot.I.J".
-bool is_net_place(const std::string& place);
 /// The numbers of "knot.I.J"; nothing when the text is no such place.
 std::optional<std::pair<int, int>> knot_of(const std::string& place);
 /// A whole number written in digits only.

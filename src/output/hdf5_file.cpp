@@ -159,13 +159,6 @@ void File::flush() {
   if (H5Fflush(id(), H5F_SCOPE_GLOBAL) < 0) fail("write to the disk");
 }
 
-void File::create_group(const std::string& name) {
-  if (exists(name)) return;
-  const Handle above = parents();
-  const Handle group(H5Gcreate2(id(), name.c_str(), above.get(), H5P_DEFAULT, H5P_DEFAULT), H5Gclose);
-  if (!group) fail("create group " + name);
-}
-
 void File::create_link(const std::string& existing, const std::string& name) {
   silence();
   const Handle above = parents();

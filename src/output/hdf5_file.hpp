@@ -58,7 +58,6 @@ class File {
   hid_t id() const { return file_.get(); }
   void flush();
 
-  void create_group(const std::string& name);  ///< and the groups above it; may exist
   void create_link(const std::string& existing, const std::string& name);  ///< a second name for one data set
   bool exists(const std::string& name) const;
   Shape shape(const std::string& name) const;

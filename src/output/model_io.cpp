@@ -44,7 +44,6 @@ void write_mesh(h5::File& file, const ResultModel& model) {
   const auto elements = static_cast<std::int64_t>(model.elements.size());
   const auto nodes = static_cast<std::int64_t>(model.node_mass.size());
   const std::int64_t version[] = {2, 0};
-  file.create_group(kVtk);
   file.set_attribute(kVtk, "Version", version);
   file.set_ascii_attribute(kVtk, "Type", "UnstructuredGrid");
 
@@ -67,7 +66,6 @@ void write_mesh(h5::File& file, const ResultModel& model) {
 }
 
 void write_description(h5::File& file, const ResultModel& model) {
-  file.create_group(kCinch);
   file.set_attribute(kCinch, "format", kFormat);
   file.set_attribute(kCinch, "format_version", std::int64_t{kFormatVersion});
   file.set_attribute(kCinch, "case", model.case_name);

@@ -303,8 +303,6 @@ Recorder::Recorder(const std::filesystem::path& directory, ResultModel model, co
   impl_->take_place();
 }
 
-Recorder::Recorder(Recorder&&) noexcept = default;
-Recorder& Recorder::operator=(Recorder&&) noexcept = default;
 
 Recorder::~Recorder() {
   if (!impl_ || impl_->finished) return;
@@ -358,8 +356,5 @@ void Recorder::finish(const Summary& summary) {
   write_xdmf(run.directory, run.model, run.size, run.times);
   replace_text_file(run.directory / kSummaryFile, json);
 }
-
-int Recorder::frames() const { return static_cast<int>(impl_->times.size()); }
-const std::filesystem::path& Recorder::directory() const { return impl_->directory; }
 
 }  // namespace cinch

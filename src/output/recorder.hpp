@@ -34,8 +34,7 @@ class Recorder {
   /// new file holds them all. Throws FileError where it has fewer.
   Recorder(const std::filesystem::path& directory, ResultModel model, const Options& options,
            const Earlier& earlier);
-  Recorder(Recorder&&) noexcept;
-  Recorder& operator=(Recorder&&) noexcept;
+  Recorder(const Recorder&) = delete;
   ~Recorder();  ///< without finish(): keeps frames and probes, writes no summary, reports no errors
 
   /// Appends and flushes one frame; its arrays must have the model's sizes (else Error, internal).
@@ -48,9 +47,6 @@ class Recorder {
   void sync();
   /// Events and summary into the file, then XDMF and summary.json. Nothing may be recorded afterwards.
   void finish(const Summary& summary);
-
-  int frames() const;
-  const std::filesystem::path& directory() const;
 
  private:
   struct Impl;

@@ -113,7 +113,6 @@ struct Result::Impl {
 
 Result::Result(const std::filesystem::path& path) : impl_(std::make_unique<Impl>(find_file(path))) {}
 Result::Result(Result&&) noexcept = default;
-Result& Result::operator=(Result&&) noexcept = default;
 Result::~Result() = default;
 
 const ResultModel& Result::model() const { return impl_->model; }

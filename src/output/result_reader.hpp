@@ -18,7 +18,6 @@ class Result {
   /// result.
   explicit Result(const std::filesystem::path& path);
   Result(Result&&) noexcept;
-  Result& operator=(Result&&) noexcept;
   ~Result();
 
   const ResultModel& model() const;

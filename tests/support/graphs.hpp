@@ -89,6 +89,14 @@ inline Graph skipping_graph() {
   return g;
 }
 
+/// Each node is joined with those up to `reach` further on: more runs meet there than one pass takes.
+inline Graph band_graph(Index nodes, Index reach) {
+  Graph g{"band " + std::to_string(reach), nodes, {}, {}};
+  for (Index offset = 1; offset <= reach; ++offset)
+    for (Index i = 0; i + offset < nodes; ++i) g.join(i, i + offset);
+  return g;
+}
+
 inline std::vector<Graph> sample_graphs() {
   std::vector<Graph> list;
   for (int sub = 1; sub <= 3; ++sub)
@@ -105,6 +113,7 @@ inline std::vector<Graph> sample_graphs() {
   for (unsigned seed = 1; seed < 7; ++seed)
     list.push_back(random_graph(50 * static_cast<Index>(seed), 200 * static_cast<Index>(seed), seed));
   list.push_back(skipping_graph());
+  list.push_back(band_graph(400, 7));
   list.push_back({"empty", 5, {}, {}});
   return list;
 }
