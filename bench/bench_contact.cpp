@@ -42,7 +42,7 @@ void contacts(benchmark::State& state, std::string (*part)(int)) {
   State& s = simulation.state();
   ContactList list(phase.model, 0);
   list.rebuild(phase.model, s);
-  const std::vector<double> share = node_share(phase.model, phase.plan.dt);
+  const std::vector<double> share = node_share(phase.model, phase.plan.dt, phase.plan.joint_steps);
   NearContacts near;
   near.renew(all_contacts(phase.model, list, s), list.margin(), share.data());
   const NodeView nodes{s.x.data(),  s.y.data(),  s.z.data(),  s.vx.data(),

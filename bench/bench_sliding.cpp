@@ -38,7 +38,7 @@ void sliding_joints(benchmark::State& state) {
   joints.take_all(phase.model);
   joints.take(s);
   const NodeView nodes{s.x.data(), s.y.data(), s.z.data(), s.vx.data(), s.vy.data(), s.vz.data(), nullptr};
-  for (auto _ : state) joints.evaluate(nodes, phase.plan, 0, phase.plan.dt);
+  for (auto _ : state) joints.evaluate(nodes, phase.plan, 0);
   state.counters["items_per_second"] =
       benchmark::Counter(static_cast<double>(count), benchmark::Counter::kIsIterationInvariantRate);
   state.counters["loads"] = static_cast<double>(joints.on_hosts().size());

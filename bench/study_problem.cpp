@@ -22,6 +22,7 @@ Scene scene_of(const std::string& name, const Setting& setting) {
   }
   for (Thread& thread : scene.threads) thread.elements = setting.elements;
   scene.probes.clear();
+  scene.time.joint_steps = setting.joint_steps;
   scene.time.step = setting.step;
   if (!(setting.step > 0)) scene.time.step = setting.fraction * prepare(scene).stable_step;
   return scene;
@@ -29,8 +30,8 @@ Scene scene_of(const std::string& name, const Setting& setting) {
 
 // Steps by fractions of the stable one, and the paper's step.
 void add_series(std::vector<Setting>& to, const std::string& method, const std::vector<int>& elements,
-                double fraction) {
-  for (const int n : elements) to.push_back({method, n, 0, fraction, false});
+                double fraction, int joint_steps = 1) {
+  for (const int n : elements) to.push_back({method, n, 0, fraction, false, joint_steps});
 }
 void add_papers_step(std::vector<Setting>& to, const std::string& method, const std::vector<int>& elements,
                      const std::vector<int>& papers) {
@@ -59,7 +60,7 @@ std::string Setting::series() const {
   char words[40];
   if (step > 0) std::snprintf(words, sizeof words, ", step %g s", step);
   else std::snprintf(words, sizeof words, ", %g of the stable step", fraction);
-  return method + words;
+  return method + words + (joint_steps == 0 ? ", forces held" : "");
 }
 
 Problem ring_pull(Extent extent) {
@@ -128,7 +129,9 @@ Problem net_closing(Extent extent) {
     return Errors{{"error", std::max(area, mass)}, {"mouth_area", area}, {"split_mass_path", mass}};
   };
   for (const int n : {52, 72, 104}) p.reference.push_back({"sliding", n, 0, 0.25, false});
-  for (const double fraction : {0.8, 0.4}) add_series(p.settings, "sliding", {8, 12, 18, 26, 36}, fraction);
+  const std::vector<int> few = {6, 8, 12, 18, 26, 36};
+  for (const double fraction : {0.8, 0.4}) add_series(p.settings, "sliding", few, fraction);
+  for (const double fraction : {0.95, 0.8, 0.4}) add_series(p.settings, "sliding", few, fraction, 0);
   add_series(p.settings, "contact", {120, 240}, 0.8);
   add_papers_step(p.settings, "contact", {120, 240, 480}, {240});
   if (extent == Extent::full) add_series(p.settings, "contact", {480, 960}, 0.8);

@@ -17,6 +17,7 @@ struct Setting {
   double step = 0;             ///< s; 0: `fraction` of the stable step
   double fraction = 0;         ///< of the stable step
   bool papers = false;         ///< the paper's own choice
+  int joint_steps = 1;         ///< for which forces of sliding joints hold; 0: automatic
   std::string series() const;  ///< what it shares with others of one curve
 };
 

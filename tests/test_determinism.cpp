@@ -57,6 +57,7 @@ TEST(Determinism, SlidingCapture) {
   const std::vector<Index>& element = start.preparation().whole().joint_element;
   EXPECT_NE(std::adjacent_find(element.begin(), element.end()), element.end());
 }
+TEST(Determinism, HeldCapture) { expect_same_for_all_threads(held_capture(), {1, 2, 3, 4}, 8, true); }
 TEST(Determinism, FullLargeCapture) { expect_same_for_all_threads(full_large_capture(), {2, 7}, 0, true); }
 
 // A hanging net too large for the cache, without contacts: several steps go through it in one sweep.
@@ -101,7 +102,7 @@ TEST(Determinism, SweepsOfALargeNet) {
 
 TEST(Determinism, FramesOnTheWayChangeNothing) {
   for (const Case& one : {ring_pull(), edge_closure(), capture(), small_large_capture(), sliding_ring_pull(),
-                          sliding_capture()}) {
+                          sliding_capture(), held_capture()}) {
     SCOPED_TRACE(one.name);
     Simulation looked_at(read(one), 1);
     for (std::int64_t step = 0; step < one.steps; step = std::min(step + 37, one.steps)) {
@@ -228,7 +229,7 @@ TEST_P(InstructionSets, GiveTheSameHash) {
   if (!machine_has(isa)) GTEST_SKIP() << "this machine has no x86-64-" << isa;
   if (!build_has(isa)) return expect_refused(isa);
   for (const Case& one : {ring_pull(), edge_closure(), capture(), small_large_capture(), sliding_ring_pull(),
-                          sliding_capture()}) {
+                          sliding_capture(), held_capture()}) {
     SCOPED_TRACE(one.name);
     const nlohmann::json base = summary(one, "base"), other = summary(one, isa);
     EXPECT_EQ(base.at("isa"), "base");

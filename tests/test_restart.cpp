@@ -97,6 +97,7 @@ TEST(Restart, SlidingRingPull) {
   expect_goes_on(one, {1, 1501, 3777, 5001});
 }
 TEST(Restart, SlidingCapture) { expect_goes_on(sliding_capture(), {20, 26, 1111, 5003}); }
+TEST(Restart, HeldCapture) { expect_goes_on(held_capture(), {20, 25, 26, 27, 1111, 5003}); }
 
 // A mass with a radius hits the target 0.1 ms after the start; its thread touches nothing.
 Scene thrown_sphere() {
@@ -254,6 +255,21 @@ TEST(Restart, RefusesRingsOutOfTheirOrderAlongTheThread) {
             "error: memory: joints/element is not in the order of the rings along their thread");
 }
 
+TEST(Restart, RefusesForcesOnNodesThatTheyDoNotActOn) {
+  const Scene scene = read(held_capture());
+  Simulation simulation(scene, 1);
+  advance(simulation, 100);  // closed
+  while (simulation.step() < 8000 && simulation.state().held.count[0].hosts == 0)
+    advance(simulation, simulation.step() + 100);
+  ASSERT_GT(simulation.state().held.count[0].hosts, 0) << "no force holds";
+  Entries entries = saved(simulation);
+  EXPECT_EQ(refusal(scene, entries), "");
+  const Index first = kernel::joint_thread_loads * simulation.model().sliding_threads[0].joint_end;
+  list<std::int64_t>(entries, "joints/held_node")[at(first)] =
+      simulation.preparation().assembly.node_of("net.main.knot.5.5");
+  EXPECT_EQ(refusal(scene, entries), "error: memory: joints/held_node names a node that has no such force");
+}
+
 // Numbers as a damaged or hostile file might hold them: each is refused, or the simulation that they give can
 // be stepped and looked at (it may stop with an error, but does not crash).
 template <class Random>
@@ -324,6 +340,7 @@ void expect_survives(const Case& one, std::int64_t step, int rounds) {
 TEST(Restart, StrangeNumbersDoNotCrash) {
   expect_survives(capture(), 300, 150);
   expect_survives(sliding_capture(), 300, 150);
+  expect_survives(held_capture(), 301, 300);
   expect_survives(ring_pull(), 200, 150);
 }
 

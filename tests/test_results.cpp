@@ -115,6 +115,7 @@ Summary small_summary() {
   summary.threads = 3;
   summary.steps = 5'000'000'000;
   summary.time_step = 0.1;
+  summary.joint_steps = 4;
   summary.simulated_seconds = 1.0 / 3;
   summary.wall_seconds = 7.7;
   summary.nodes = 5;

@@ -121,6 +121,7 @@ struct Summary {
   int threads = 1;
   std::int64_t steps = 0;
   double time_step = 0, simulated_seconds = 0, wall_seconds = 0;
+  int joint_steps = 1;  ///< for which forces of sliding joints hold
   Index nodes = 0, elements = 0, rings = 0;
   double stable_step = 0;  ///< s
   std::string stable_step_limited_by;

@@ -62,6 +62,17 @@ const Section<TimeSpec>& time_section() {
             .source = "threads that turn slack and taut gain energy well below the linear bound if little "
                       "damps them"},
            into(&TimeSpec::safety)},
+          {{.name = "joint_steps",
+            .type = whole,
+            .range = from(1, 1000),
+            .words = {"auto"},
+            .fallback = "\"auto\"",
+            .by_method = {{"paper", "1"}},
+            .meaning = "Steps for which the forces of sliding joints hold: they are computed for where nodes "
+                       "will be in the middle of them. `auto`: as many, up to 8, as use a quarter of what "
+                       "keeps the joints stable.",
+            .source = "`bench/study`: errors as with 1, a third of the run time"},
+           [](TimeSpec& time, const Value& value) { time.joint_steps = value.is_word ? 0 : value.whole; }},
           {{.name = "allow_unstable",
             .type = flag,
             .fallback = "false",

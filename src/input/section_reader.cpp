@@ -82,7 +82,8 @@ bool check_word(const KeyInfo& key, const TomlValue& found, Value& value) {
 }
 
 bool accept(const KeyInfo& key, const TomlValue& found, Value& value, Place& place) {
-  const bool word_instead = key.type == KeyType::number || key.type == KeyType::wholes;
+  const bool word_instead =
+      key.type == KeyType::number || key.type == KeyType::whole || key.type == KeyType::wholes;
   if (word_instead && check_word(key, found, value)) return true;
   switch (key.type) {
     case KeyType::text:
@@ -237,7 +238,7 @@ std::string allowed_text(const KeyInfo& key) {
     case KeyType::number:
       return "number" + range_text(key) + or_word;
     case KeyType::whole:
-      return "whole number" + range_text(key);
+      return "whole number" + range_text(key) + or_word;
     case KeyType::wholes:
       return "array of whole numbers" + range_text(key) + ", none twice" + or_word;
     case KeyType::flag:

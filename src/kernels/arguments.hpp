@@ -192,6 +192,9 @@ struct Joint {
   double host_stiffness;  ///< ... with this, N/m: a part of it for each thread that slides through the ring
 };
 
+constexpr Index joint_loads = 8;         ///< that one evaluation makes of a joint, at most:
+constexpr Index joint_thread_loads = 4;  ///< so many on nodes of its thread, the others on its ring's host
+
 /// A thread on which rings slide; its elements are alike.
 struct SlidingThread {
   Index node_begin, elements;              ///< its nodes are nodes[node_begin + 0 .. elements]
@@ -206,30 +209,34 @@ struct JointState {
   Index passes;       ///< nodes that have passed the ring
   double offset[3];   ///< of the thread's waypoint from the ring's centre, m
   double dissipated;  ///< by dampers beyond straight elements, J; of the whole thread at its first ring
-  // as in the last step, of the first ring in an element
-  Index damped, rings;             ///< that element, and how many rings lay in it; rings 0: not known
-  double damper, straight_damper;  ///< damper force of the element, and of it as a straight one, N
+  // as last evaluated in a step, of the first ring in an element
+  Index damped, rings;                ///< that element, and how many rings lay in it; rings 0: not known
+  double damper, straight_damper;     ///< damper force of the element, and of it as a straight one, N
+  double last_length, last_straight;  ///< lengths of both, m; negative: not known
   // as last looked at
   double length;   ///< of its element, m
   double tension;  ///< on both sides of the ring, N
   double energy;   ///< of its element beyond the straight one, J; of several rings at the first
   double along;    ///< unstretched thread from its start to the ring, m: the material coordinate
-  double due;      ///< damper power up to now, W, as `dissipated`
+  double due;      ///< dissipated since the last evaluation in a step, J, as `dissipated`
 };
 
-/// How many loads sliding joints wrote on nodes of threads and of the rings' hosts.
+/// Loads of sliding joints: on nodes of threads, on those of the rings' hosts.
 struct SlidingLoads {
   Index threads, hosts;
 };
 
 struct SlidingArguments {
-  ContactArguments contact;
+  ContactArguments contact;  ///< its steps are those between two evaluations
+  double ahead;              ///< s: nodes are taken where they will be then
+  double since;              ///< s since the last evaluation in a step, from where that took nodes
   const Index* nodes;
   const SlidingThread* threads;
   Index thread_count;
   const Joint* joints;
   JointState* states;         ///< joint
   RingTally* const* tallies;  ///< ring: where it is booked, or null
+  SlidingLoads* ends;         ///< thread: behind its loads
   double* scratch;  ///< sliding_scratch numbers a joint, of which only this call knows what they mean
 };
 

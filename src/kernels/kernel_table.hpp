@@ -42,10 +42,11 @@ struct KernelTable {
   Index (*ball_contacts)(const kernel::BallArguments&, const kernel::Pair* pairs, const Index* near,
                          Index count, double* gap, kernel::Load* loads);
   /// Rings that slide on threads: moves waypoints, lets nodes pass, writes what nodes of the threads take
-  /// beside the force of straight elements and what the rings' hosts take (room for four a joint each). With
+  /// beside the force of straight elements and what the rings' hosts take (room for four each a joint). With
   /// contact.dt = 0 no node passes.
-  kernel::SlidingLoads (*sliding_joints)(const kernel::SlidingArguments&, kernel::Load* on_threads,
-                                         kernel::Load* on_hosts);
+  void (*sliding_joints)(const kernel::SlidingArguments&, kernel::Load* on_threads, kernel::Load* on_hosts);
+  /// What the rings' bodies push the ends of their hosts apart with (room for two a joint); returns how many.
+  Index (*push_hosts)(const kernel::SlidingArguments&, kernel::Load* loads);
 };
 
 /// The best table for this machine, or the one named by the environment variable CINCH_ISA ("base", "v3",

@@ -21,6 +21,13 @@
 // would turn faster and faster, and in the end by any angle in a step.
 //
 // Elements are computed as straight ones with all the others. What is added here is the difference.
+//
+// Its forces may hold for several steps of the scheme, m dt = H in all: threads and rings move slowly beside
+// what a stiff net allows. They are evaluated where nodes will be in the middle of those steps, (m - 1) dt /
+// 2 ahead, if they keep their speed. For nodes that nothing else pulls at this is
+//   x_1/2 = x + H/2 v,   v' = v + H f(x_1/2) / m,   x' = x_1/2 + H/2 v',
+// central differences again, of step H, and as these do not lag behind no energy is won or lost to first
+// order in H. (To kick nodes once with H f would shake them.)
 #include "kernels/axial_law.hpp"
 #include "kernels/contact_item.hpp"
 #include "kernels/kernel_table.hpp"
@@ -40,7 +47,6 @@ struct Host {
   Opening opening;
   V3 velocity, turn;      // m/s; dN/dt before projection, 1/s: zero for a ring with a node of its own
   double inverse_length;  // of the host, 1/m; zero for a ring with a node of its own
-  double shortness;       // of the host: by how much its ends are too near, m
 };
 
 // A straight piece of a way.
@@ -80,6 +86,11 @@ struct SlidingWriter {
   LoadWriter threads, hosts;
 };
 
+inline V3 place_ahead(const SlidingArguments& g, Index node) {
+  const kernel::ContactArguments& c = g.contact;
+  return at(c.x, c.y, c.z, node) + g.ahead * at(c.vx, c.vy, c.vz, node);
+}
+
 // One thread in one step.
 struct Slide {
   const SlidingArguments& g;
@@ -88,7 +99,7 @@ struct Slide {
 
   JointState& state(Index j) const { return g.states[j]; }
   Index node(Index k) const { return g.nodes[thread.node_begin + k]; }
-  V3 place(Index k) const { return at(g.contact.x, g.contact.y, g.contact.z, node(k)); }
+  V3 place(Index k) const { return place_ahead(g, node(k)); }
   V3 speed(Index k) const { return at(g.contact.vx, g.contact.vy, g.contact.vz, node(k)); }
   V3 waypoint(Index j) const { return work[j].host.opening.center + vec(state(j).offset); }
   // How much longer than its thread an element is, for a length of its way.
@@ -108,18 +119,46 @@ struct Slide {
   }
 };
 
-inline Host host_of(const kernel::ContactArguments& c, const kernel::Joint& joint) {
-  const V3 xa = at(c.x, c.y, c.z, joint.host_a), va = at(c.vx, c.vy, c.vz, joint.host_a);
-  if (joint.host_a == joint.host_b) return {{xa, vec(joint.normal), joint.opening}, va, {0, 0, 0}, 0, 0};
-  const V3 xb = at(c.x, c.y, c.z, joint.host_b), vb = at(c.vx, c.vy, c.vz, joint.host_b);
+inline Host host_of(const SlidingArguments& g, const kernel::Joint& joint) {
+  const kernel::ContactArguments& c = g.contact;
+  const V3 xa = place_ahead(g, joint.host_a), va = at(c.vx, c.vy, c.vz, joint.host_a);
+  if (joint.host_a == joint.host_b) return {{xa, vec(joint.normal), joint.opening}, va, {0, 0, 0}, 0};
+  const V3 xb = place_ahead(g, joint.host_b), vb = at(c.vx, c.vy, c.vz, joint.host_b);
   const V3 along = xb - xa;
   const double length = norm(along), inverse = length > 0 ? 1 / length : 0.0;
-  const double shortness = joint.host_least > length ? joint.host_least - length : 0.0;
-  return {{0.5 * (xa + xb), inverse * along, joint.opening},
-          0.5 * (va + vb),
-          inverse * (vb - va),
-          inverse,
-          shortness};
+  return {{0.5 * (xa + xb), inverse * along, joint.opening}, 0.5 * (va + vb), inverse * (vb - va), inverse};
+}
+
+// ---- the ring's body between the ends of its host
+
+// A host whose ends are too near, as they stand.
+struct ShortHost {
+  V3 along;          // from one end to the other, m
+  double length;     // m
+  double shortness;  // by how much they are too near, m; 0: they are not
+};
+
+inline ShortHost short_host(const kernel::ContactArguments& c, const kernel::Joint& joint) {
+  const V3 along = at(c.x, c.y, c.z, joint.host_b) - at(c.x, c.y, c.z, joint.host_a);
+  const double square = dot(along, along);
+  if (!(square < joint.host_least * joint.host_least)) return {along, 0, 0};
+  const double length = std::sqrt(square);
+  return {along, length, joint.host_least - length};
+}
+
+// A ring through which several threads pass pushes with a part for each.
+Index push_hosts(const SlidingArguments& g, kernel::Load* loads) {
+  LoadWriter out{loads};
+  for (Index t = 0; t < g.thread_count; ++t)
+    for (Index j = g.threads[t].joint_begin; j < g.threads[t].joint_end; ++j) {
+      const kernel::Joint& joint = g.joints[j];
+      const ShortHost host = short_host(g.contact, joint);
+      if (!(host.shortness > 0 && host.length > 0)) continue;
+      const V3 push = (joint.host_stiffness * host.shortness / host.length) * host.along;
+      out.add(joint.host_a, -1.0 * push);
+      out.add(joint.host_b, push);
+    }
+  return static_cast<Index>(out.next - loads);
 }
 
 // ---- the way through the rings of one element
@@ -335,26 +374,37 @@ struct Pull {
   }
 };
 
-// What some elements with rings have beyond straight ones.
-struct Beyond {
-  double energy = 0, storing = 0, power = 0;  // J; W, of the energy; W, dissipated: see kernel::Book
-
-  void add(const Pull& with, const Pull& straight, const JointState* before, double weight) {
-    energy += weight * (with.energy - straight.energy);
-    storing += weight * (with.storing - straight.storing);
-    const double last = before ? before->damper : with.damper;
-    const double last_straight = before ? before->straight_damper : straight.damper;
-    power +=
-        weight * 0.5 * ((with.damper + last) * with.rate - (straight.damper + last_straight) * straight.rate);
-  }
+// How a group pulls, and how its element would without rings.
+struct Pulls {
+  Pull with, without;
 };
 
-// The first joint of a group, if its element had the same rings in the last step. Else, as where a node has
-// passed, power is booked as if the dampers had pulled as now.
+// The first joint of a group, if its element had the same rings when joints were last evaluated in a step.
+// Else, as where a node has passed, dampers are booked as if they had pulled as now.
 inline const JointState* last_step(const Slide& s, const Group& group) {
   const JointState& first = s.state(group.first);
   return first.damped == group.element && first.rings == group.last - group.first ? &first : nullptr;
 }
+
+// What some elements with rings have beyond straight ones.
+struct Beyond {
+  double energy = 0, storing = 0, taken = 0;  // J; W, of the energy; J, by dampers: see kernel::Book
+
+  // Dampers take the mean of their forces, then and now, over what the length has changed.
+  void add(const Slide& s, const Group& group, const Pulls& pulls, double weight) {
+    energy += weight * (pulls.with.energy - pulls.without.energy);
+    storing += weight * (pulls.with.storing - pulls.without.storing);
+    const JointState* const before = last_step(s, group);
+    const Way& way = s.work[group.first].way;
+    const bool measured = before && before->last_length >= 0;
+    const double longer = measured ? way.length - before->last_length : s.g.since * pulls.with.rate;
+    const double straight =
+        measured ? way.direct.length - before->last_straight : s.g.since * pulls.without.rate;
+    taken += weight * 0.5 *
+             ((pulls.with.damper + (before ? before->damper : pulls.with.damper)) * longer -
+              (pulls.without.damper + (before ? before->straight_damper : pulls.without.damper)) * straight);
+  }
+};
 
 // The unit vector with which the way leaves the waypoint of joint j in `group`.
 inline V3 onward_direction(const Slide& s, const Group& group, Index j) {
@@ -397,11 +447,6 @@ inline void load_ring(const Slide& s, Index j, V3 force, SlidingWriter& out) {
   out.hosts.add(joint.host_b, 0.5 * force + turn);
 }
 
-// How a group pulls, and how its element would without rings.
-struct Pulls {
-  Pull with, without;
-};
-
 inline Pulls pulls_of(const Slide& s, const Group& group) {
   Way& way = s.work[group.first].way;
   const double rate = dot(way.direct.unit, s.speed(group.element + 1) - s.speed(group.element));
@@ -418,6 +463,8 @@ void keep_dampers(const Slide& s, const Group& group) {
   first.rings = way.idle && way.straight ? 0 : group.last - group.first;
   first.damper = way.idle ? 0.0 : way.damper;
   first.straight_damper = way.idle || way.straight ? first.damper : way.direct_damper;
+  first.last_length = way.idle ? -1.0 : way.length;
+  first.last_straight = way.idle ? -1.0 : way.direct.length;
   for (Index j = group.first + 1; j < group.last; ++j) s.state(j).rings = 0;
 }
 
@@ -430,8 +477,8 @@ void note_group(const Slide& s, const Group& group, const Pulls& pulls) {
     s.state(j).along = s.thread.rest_length * (group.element + (way < 1 ? way : 1.0));
     s.state(j).length = length;
     s.state(j).tension = pulls.with.tension;
-    const double short_host = s.work[j].host.shortness;
-    s.state(j).energy = 0.5 * s.g.joints[j].host_stiffness * short_host * short_host;
+    const double shortness = short_host(s.g.contact, s.g.joints[j]).shortness;
+    s.state(j).energy = 0.5 * s.g.joints[j].host_stiffness * shortness * shortness;
     if (j == group.first) s.state(j).energy += pulls.with.energy - pulls.without.energy;
   }
 }
@@ -441,7 +488,7 @@ void load_group(const Slide& s, const Group& group, double weight, Beyond& beyon
   if (s.work[group.first].way.idle) return;
   const Pulls pulls = pulls_of(s, group);
   const double tension = pulls.with.tension;
-  beyond.add(pulls.with, pulls.without, last_step(s, group), weight);
+  beyond.add(s, group, pulls, weight);
   if (!(s.g.contact.dt > 0)) note_group(s, group, pulls);
   if (!(tension > 0 || pulls.without.tension > 0)) return;
   const V3 straight = pulls.without.tension * s.work[group.first].way.direct.unit;
@@ -455,15 +502,6 @@ void load_group(const Slide& s, const Group& group, double weight, Beyond& beyon
   out.threads.add(s.node(group.element + 1), weight * (straight - tension * in));
 }
 
-// The ring's body pushes the ends of its host apart.
-inline void push_host(const Slide& s, Index j, SlidingWriter& out) {
-  const Host& host = s.work[j].host;
-  if (!(host.shortness > 0)) return;
-  const V3 push = (s.g.joints[j].host_stiffness * host.shortness) * host.opening.normal;
-  out.hosts.add(s.g.joints[j].host_a, -1.0 * push);
-  out.hosts.add(s.g.joints[j].host_b, push);
-}
-
 void load_thread(const Slide& s, double weight, Beyond& beyond, SlidingWriter& out) {
   for (Index j = s.thread.joint_begin; j < s.thread.joint_end; j = s.behind(j))
     load_group(s, group_of(s, j), weight, beyond, out);
@@ -475,7 +513,7 @@ Beyond beyond_straight(const Slide& s) {
     if (s.work[j].way.idle) continue;
     const Group group = group_of(s, j);
     const Pulls pulls = pulls_of(s, group);
-    sum.add(pulls.with, pulls.without, last_step(s, group), 1);
+    sum.add(s, group, pulls, 1);
   }
   return sum;
 }
@@ -510,7 +548,7 @@ void load_passing_thread(const Slide& s, Beyond& beyond, SlidingWriter& out) {
 void slide_thread(const SlidingArguments& g, const SlidingThread& thread, SlidingWriter& out) {
   const Slide s{g, thread, reinterpret_cast<Work*>(g.scratch)};
   for (Index j = thread.joint_begin; j < thread.joint_end; ++j) {
-    s.work[j].host = host_of(g.contact, g.joints[j]);
+    s.work[j].host = host_of(g, g.joints[j]);
     s.work[j].force = {0, 0, 0};
   }
   for (Index j = thread.joint_begin; j < thread.joint_end; j = s.behind(j)) find_way(s, group_of(s, j));
@@ -518,9 +556,8 @@ void slide_thread(const SlidingArguments& g, const SlidingThread& thread, Slidin
   Beyond beyond;
   if (g.contact.dt > 0 && pass_nodes(s)) load_passing_thread(s, beyond, out);
   else load_thread(s, 1, beyond, out);
-  for (Index j = thread.joint_begin; j < thread.joint_end; ++j) push_host(s, j, out);
-  s.state(thread.joint_begin).dissipated += g.contact.dt * beyond.power;
-  if (!(g.contact.dt > 0)) s.state(thread.joint_begin).due = beyond.power;
+  if (g.contact.dt > 0) s.state(thread.joint_begin).dissipated += beyond.taken;
+  else s.state(thread.joint_begin).due = beyond.taken;
   for (Index j = thread.joint_begin; g.contact.dt > 0 && j < thread.joint_end; j = s.behind(j))
     keep_dampers(s, group_of(s, j));
 }
@@ -538,16 +575,21 @@ void note_forces(const SlidingArguments& g) {
   for_each_tally([&](RingTally& tally, V3) { note_force(tally, norm(vec(tally.force)), g.contact.time); });
 }
 
-kernel::SlidingLoads sliding_joints(const SlidingArguments& g, kernel::Load* on_threads,
-                                    kernel::Load* on_hosts) {
+void sliding_joints(const SlidingArguments& g, kernel::Load* on_threads, kernel::Load* on_hosts) {
   SlidingWriter out{{on_threads}, {on_hosts}};
-  for (Index t = 0; t < g.thread_count; ++t) slide_thread(g, g.threads[t], out);
+  for (Index t = 0; t < g.thread_count; ++t) {
+    slide_thread(g, g.threads[t], out);
+    g.ends[t] = {static_cast<Index>(out.threads.next - on_threads),
+                 static_cast<Index>(out.hosts.next - on_hosts)};
+  }
   note_forces(g);
-  return {static_cast<Index>(out.threads.next - on_threads), static_cast<Index>(out.hosts.next - on_hosts)};
 }
 
 }  // namespace
 
-void fill_sliding_joint(KernelTable& table) { table.sliding_joints = sliding_joints; }
+void fill_sliding_joint(KernelTable& table) {
+  table.sliding_joints = sliding_joints;
+  table.push_hosts = push_hosts;
+}
 
 }  // namespace cinch::CINCH_ISA

@@ -87,6 +87,8 @@ void print_verdict(const Summary& summary, std::ostream& out) {
        summary.message.c_str());
   line(out, "steps", "%lld of %.9g s, %.9g s simulated", static_cast<long long>(summary.steps),
        summary.time_step, summary.simulated_seconds);
+  if (summary.joint_steps > 1)
+    line(out, "sliding joints", "forces hold for %d steps each time", summary.joint_steps);
   line(out, "stable step", "%.4g s, limited by %s", summary.stable_step,
        summary.stable_step_limited_by.c_str());
   line(out, "wall time", "%.3f s, %.4g min per simulated second", summary.wall_seconds,

@@ -303,7 +303,6 @@ Recorder::Recorder(const std::filesystem::path& directory, ResultModel model, co
   impl_->take_place();
 }
 
-
 Recorder::~Recorder() {
   if (!impl_ || impl_->finished) return;
   try {

@@ -37,11 +37,11 @@ double dissipated_by_contacts(const State& state) {
   return energy;
 }
 
-// Of the dampers since the last step, W.
-double power_due(const Glance& glance, const State& state) {
-  double power = sum(glance.due);
-  for (const kernel::JointState& joint : state.joints) power += joint.due;
-  return power;
+// By dampers since what `state` has booked, J.
+double dissipation_due(const Glance& glance, const State& state, double dt) {
+  double energy = dt * sum(glance.due);
+  for (const kernel::JointState& joint : state.joints) energy += joint.due;
+  return energy;
 }
 
 double couple_work(const State& state) {
@@ -84,7 +84,7 @@ void Look::sum_energies() {
   for (const kernel::JointState& joint : s.joints) energy_.elastic += joint.energy;
   energy_.contact = contact_energy(s);
   energy_.dissipated_damper = dissipated_by_dampers(s, dt_);
-  if (share_ > 0) energy_.dissipated_damper += dt_ * power_due(glance_, s);
+  if (share_ > 0) energy_.dissipated_damper += dissipation_due(glance_, s, dt_);
   energy_.dissipated_contact = dissipated_by_contacts(s);
   energy_.booked_couple = couple_work(s);
 }

@@ -332,14 +332,17 @@ double Piece::load_joints() {
   const auto load = [&](std::span<const kernel::Load> list) {
     return kernels_.load_nodes(node_, list.data(), static_cast<Index>(list.size()));
   };
-  const double threads = load(joints_.on_threads());
-  return std::max(threads, load(joints_.on_hosts()));
+  return std::max({load(joints_.on_threads()), load(joints_.on_hosts()), load(joints_.pushing())});
 }
 
-double Piece::step(double time, double motion, StageClock& clock) {
+double Piece::step(std::int64_t number, double motion, StageClock& clock) {
+  const double time = static_cast<double>(number) * plan_.dt;
   const auto constraints = static_cast<Index>(constraints_.size());
   if (plan_.touches()) contacts_.evaluate(view(), plan_, time, plan_.dt, motion);
-  if (plan_.joints) joints_.evaluate(view(), plan_, time, plan_.dt);
+  if (plan_.joints) {
+    if (plan_.joints_hold(number) == 0) joints_.evaluate(view(), plan_, number);
+    joints_.push(view(), plan_);
+  }
   clock.tick(StageId::contacts);
   hold_before(0, constraints);
   double greatest = 0;
@@ -385,11 +388,13 @@ void Piece::lend(Glance& out) {
   for (kernel::Reaction*& reaction : reactions_) reaction = &unbooked_;
 }
 
-void Piece::glance(State& state, double time, double motion, Glance& out) {
+void Piece::glance(State& state, double motion, Glance& out) {
   take(state);
+  const double time = static_cast<double>(state.step) * plan_.dt;
   if (plan_.touches()) contacts_.evaluate(view(), plan_, time, 0, motion);
   if (plan_.joints) {
-    joints_.evaluate(view(), plan_, time, 0);
+    joints_.glance(view(), plan_, state.step);
+    joints_.push(view(), plan_);
     joints_.tell(state);
   }
   lend(out);
@@ -411,6 +416,7 @@ void Piece::glance(State& state, double time, double motion, Glance& out) {
 void Piece::append_loads(std::vector<kernel::Load>& loads) const {
   append({contacts_.loads(), at(contacts_.load_count())}, loads);
   append(joints_.on_hosts(), loads);
+  append(joints_.pushing(), loads);
 }
 
 void Piece::append(std::span<const kernel::Load> list, std::vector<kernel::Load>& loads) const {

@@ -48,12 +48,12 @@ class Piece {
 
   /// One step of a scene with contacts; returns the greatest squared speed of its own nodes. `motion`: see
   /// NearContacts.
-  double step(double time, double motion, StageClock& clock);
+  double step(std::int64_t number, double motion, StageClock& clock);
   /// `steps` <= levels() steps of a scene without contacts.
   void sweep(int steps, StageClock& clock);
   /// What one step from this state would add to the speeds of its own nodes; moves and books nothing. With
   /// several pieces `out` has its final size already.
-  void glance(State& state, double time, double motion, Glance& out);
+  void glance(State& state, double motion, Glance& out);
   /// Appends the forces of contacts and joints on its own nodes as last evaluated, in the user's numbers.
   void append_loads(std::vector<kernel::Load>& loads) const;
   /// The dampers' forces of the last step by element, N: those booked here are put into `forces`. False where

@@ -58,6 +58,26 @@ void check_step(const Scene& scene, const Preparation& p) {
   throw CaseError(place_of_step(scene) + text);
 }
 
+// Errors stay those of 1 up to what is stable, energy residuals about so up to half of that (bench/study);
+// more than 8 would save next to nothing. The stable step decides, so that a shorter one holds joints for
+// less time.
+constexpr double automatic_joint_share = 0.5;
+constexpr int most_automatic_joint_steps = 8;
+
+int joint_steps_of(const Scene& scene, const Model& model, double dt, double stable) {
+  const int given = scene.time.joint_steps;
+  if (model.joints.empty()) return 1;
+  if (given == 0) return joint_steps(model, stable, automatic_joint_share, most_automatic_joint_steps);
+  const int most = joint_steps(model, dt, 1, given);
+  if (given <= most || scene.time.allow_unstable) return given;
+  char text[300];
+  std::snprintf(text, sizeof text,
+                "error: time.joint_steps = %d is more than sliding threads allow with a step of %.6g s; the "
+                "largest that works is %d (or time.joint_steps = \"auto\", or time.allow_unstable = true)",
+                given, dt, most);
+  throw CaseError(place_of_step(scene) + text);
+}
+
 }  // namespace
 
 std::string element_label(const Preparation& preparation, Index user_element) {
@@ -106,7 +126,11 @@ Preparation prepare(const Scene& scene) {
   const bool deploys = p.phases.size() > 1;
   const double closing_steps = std::min(scene.closing.time.value_or(0) / p.dt, 9e18);
   if (closes) p.closing_step = std::max<std::int64_t>(std::llround(closing_steps), deploys);
-  for (Phase& phase : p.phases) phase.plan = plan_steps(scene, phase.model, p.dt);
+  for (Phase& phase : p.phases) {
+    phase.plan = plan_steps(scene, phase.model, p.dt);
+    phase.plan.joint_steps = joint_steps_of(scene, phase.model, p.dt, p.stable_step);
+  }
+  if (deploys) p.phases.back().plan.first_step = p.closing_step;
   return p;
 }
 

@@ -110,7 +110,7 @@ void Simulation::enter_phase(std::size_t number) {
   phase_ = number;
   const Phase& p = phase();
   std::vector<double> share;
-  if (p.plan.contacts()) share = node_share(p.model, preparation_.dt);
+  if (p.plan.contacts()) share = node_share(p.model, preparation_.dt, p.plan.joint_steps);
   stepper_ = std::make_unique<Stepper>(p.model, p.plan, std::move(share), threads_);
 }
 

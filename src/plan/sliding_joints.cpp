@@ -17,6 +17,7 @@ void SlidingJoints::add_thread(const Model& model, std::size_t number, bool book
   thread.joint_begin = static_cast<Index>(joints_.size());
   thread.joint_end = thread.joint_begin + last - first;
   thread.booked = booked;
+  scene_thread_.push_back(static_cast<Index>(number));
   nodes_.insert(nodes_.end(), nodes, nodes + thread.elements + 1);
   joints_.insert(joints_.end(), model.joints.begin() + first, model.joints.begin() + last);
   for (Index j = first; j < last; ++j) number_.push_back(j);
@@ -27,8 +28,10 @@ void SlidingJoints::make_room(const Model& model) {
   states_.resize(joints_.size());
   tallies_.assign(model.rings.size(), nullptr);
   scratch_.resize(joints_.size() * at(kernel::sliding_scratch));
-  on_threads_.resize(4 * joints_.size());
-  on_hosts_.resize(6 * joints_.size());
+  on_threads_.resize(at(kernel::joint_thread_loads) * joints_.size());
+  on_hosts_.resize(at(kernel::joint_loads - kernel::joint_thread_loads) * joints_.size());
+  pushing_.resize(2 * joints_.size());
+  ends_.assign(threads_.size(), {0, 0});
 }
 
 void SlidingJoints::take_all(const Model& model) {
@@ -58,20 +61,61 @@ std::vector<Index> SlidingJoints::nodes_needed() const {
 }
 
 void SlidingJoints::renumber(const std::function<Index(Index)>& local) {
+  for (const Index node : nodes_needed()) {
+    locals_[node] = local(node);
+    users_[local(node)] = node;
+  }
   for (Index& node : nodes_) node = local(node);
   for (kernel::Joint& joint : joints_) joint.host_a = local(joint.host_a), joint.host_b = local(joint.host_b);
 }
+
+namespace {
+
+// Copies loads and gives their nodes the numbers that they have there.
+kernel::Load* copy_loads(const kernel::Load* first, const kernel::Load* last, kernel::Load* to,
+                         const std::unordered_map<Index, Index>& numbers) {
+  for (; first != last; ++first, ++to) {
+    *to = *first;
+    if (!numbers.empty()) to->node = numbers.at(first->node);
+  }
+  return to;
+}
+
+}  // namespace
 
 void SlidingJoints::take(State& state) {
   for (std::size_t j = 0; j < number_.size(); ++j) states_[j] = state.joints[at(number_[j])];
   for (const kernel::Joint& joint : joints_)
     tallies_[at(joint.ring)] = books_ring_[at(joint.ring)] ? &state.rings[at(joint.ring)] : nullptr;
+  kernel::Load *to_threads = on_threads_.data(), *to_hosts = on_hosts_.data();
+  for (std::size_t t = 0; t < threads_.size(); ++t) {
+    const Index begin = number_[at(threads_[t].joint_begin)];
+    const Index end = begin + threads_[t].joint_end - threads_[t].joint_begin;
+    const kernel::SlidingLoads count = state.held.count[at(scene_thread_[t])];
+    const kernel::Load *const held = state.held.on_threads(begin), *const on_hosts =
+                                                                       state.held.on_hosts(begin, end);
+    to_threads = copy_loads(held, held + count.threads, to_threads, locals_);
+    to_hosts = copy_loads(on_hosts, on_hosts + count.hosts, to_hosts, locals_);
+    ends_[t] = {static_cast<Index>(to_threads - on_threads_.data()),
+                static_cast<Index>(to_hosts - on_hosts_.data())};
+  }
 }
 
 void SlidingJoints::give(State& state) const {
-  for (const kernel::SlidingThread& thread : threads_)
-    for (Index j = thread.joint_begin; thread.booked && j < thread.joint_end; ++j)
+  for (std::size_t t = 0; t < threads_.size(); ++t) {
+    const kernel::SlidingThread& thread = threads_[t];
+    if (!thread.booked) continue;
+    for (Index j = thread.joint_begin; j < thread.joint_end; ++j)
       state.joints[at(number_[at(j)])] = states_[at(j)];
+    const Index begin = number_[at(thread.joint_begin)];
+    const Index end = begin + thread.joint_end - thread.joint_begin;
+    const kernel::SlidingLoads from = begin_of(t), to = ends_[t];
+    copy_loads(on_threads_.data() + from.threads, on_threads_.data() + to.threads,
+               state.held.on_threads(begin), users_);
+    copy_loads(on_hosts_.data() + from.hosts, on_hosts_.data() + to.hosts, state.held.on_hosts(begin, end),
+               users_);
+    state.held.count[at(scene_thread_[t])] = {to.threads - from.threads, to.hosts - from.hosts};
+  }
 }
 
 void SlidingJoints::tell(State& state) const {
@@ -84,13 +128,38 @@ void SlidingJoints::tell(State& state) const {
     }
 }
 
-void SlidingJoints::evaluate(const NodeView& n, const StepPlan& plan, double time, double booked_dt) {
-  const kernel::ContactArguments contact{n.x,     n.y, n.z,  n.vx,      n.vy,   n.vz,
-                                         n.share, 0,   time, booked_dt, plan.dt};
-  counts_ =
-      kernels_->sliding_joints({contact, nodes_.data(), threads_.data(), static_cast<Index>(threads_.size()),
-                                joints_.data(), states_.data(), tallies_.data(), scratch_.data()},
-                               on_threads_.data(), on_hosts_.data());
+kernel::SlidingArguments SlidingJoints::arguments(const NodeView& n, const StepPlan& plan, double time,
+                                                  double booked_dt, double ahead, double since) {
+  return {{n.x, n.y, n.z, n.vx, n.vy, n.vz, n.share, 0, time, booked_dt, plan.joint_steps * plan.dt},
+          ahead,
+          since,
+          nodes_.data(),
+          threads_.data(),
+          static_cast<Index>(threads_.size()),
+          joints_.data(),
+          states_.data(),
+          tallies_.data(),
+          ends_.data(),
+          scratch_.data()};
+}
+
+void SlidingJoints::evaluate(const NodeView& nodes, const StepPlan& plan, std::int64_t step) {
+  const double held = plan.joint_steps * plan.dt;
+  kernels_->sliding_joints(
+      arguments(nodes, plan, static_cast<double>(step) * plan.dt, held, 0.5 * (held - plan.dt), held),
+      on_threads_.data(), on_hosts_.data());
+}
+
+// The last evaluation took nodes where they were (m - 1) / 2 steps later.
+void SlidingJoints::glance(const NodeView& nodes, const StepPlan& plan, std::int64_t step) {
+  const int hold = plan.joints_hold(step), steps = hold > 0 ? hold : plan.joint_steps;
+  const double since = (steps - 0.5 * (plan.joint_steps - 1)) * plan.dt;
+  kernels_->sliding_joints(arguments(nodes, plan, static_cast<double>(step) * plan.dt, 0, 0, since),
+                           on_threads_.data(), on_hosts_.data());
+}
+
+void SlidingJoints::push(const NodeView& nodes, const StepPlan& plan) {
+  pushes_ = kernels_->push_hosts(arguments(nodes, plan, 0, 0, 0, 0), pushing_.data());
 }
 
 }  // namespace cinch

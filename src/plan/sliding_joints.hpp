@@ -3,6 +3,7 @@
 #pragma once
 #include <functional>
 #include <span>
+#include <unordered_map>
 #include <vector>
 
 #include "kernels/kernel_table.hpp"
@@ -23,36 +24,51 @@ class SlidingJoints {
   void renumber(const std::function<Index(Index)>& local);
 
   bool empty() const { return threads_.empty(); }
-  /// Begins with the joints as they stand in `state`, which books their rings until the next call.
+  /// Begins with the joints as they stand in `state`, which books their rings until the next call, and with
+  /// the forces that hold there.
   void take(State& state);
-  /// Hands back the joints that are booked here.
+  /// Hands back the joints that are booked here, and their forces.
   void give(State& state) const;
   /// Hands back what they feel, but not how they moved: after an evaluation that was but a look.
   void tell(State& state) const;
 
-  /// Evaluates at `time` and books over `booked_dt` s. With 0 no node passes a ring.
-  void evaluate(const NodeView& nodes, const StepPlan& plan, double time, double booked_dt);
+  /// Evaluates the forces that are to hold from `step` on, and books until they are evaluated again.
+  void evaluate(const NodeView& nodes, const StepPlan& plan, std::int64_t step);
+  /// Evaluates those of the nodes as they stand; books nothing, and no node passes a ring.
+  void glance(const NodeView& nodes, const StepPlan& plan, std::int64_t step);
+  /// What rings push their hosts' ends apart with, at each step.
+  void push(const NodeView& nodes, const StepPlan& plan);
   /// What nodes of threads take beside the force of straight elements; forces of the rings on their hosts.
-  std::span<const kernel::Load> on_threads() const { return {on_threads_.data(), count(counts_.threads)}; }
-  std::span<const kernel::Load> on_hosts() const { return {on_hosts_.data(), count(counts_.hosts)}; }
+  std::span<const kernel::Load> on_threads() const { return {on_threads_.data(), count(total().threads)}; }
+  std::span<const kernel::Load> on_hosts() const { return {on_hosts_.data(), count(total().hosts)}; }
+  std::span<const kernel::Load> pushing() const { return {pushing_.data(), count(pushes_)}; }
   std::size_t memory() const;  ///< bytes, see memory.hpp
 
  private:
   void add_thread(const Model& model, std::size_t thread, bool booked);
+  kernel::SlidingArguments arguments(const NodeView& nodes, const StepPlan& plan, double time,
+                                     double booked_dt, double ahead, double since);
   void make_room(const Model& model);
+  kernel::SlidingLoads total() const { return ends_.empty() ? kernel::SlidingLoads{0, 0} : ends_.back(); }
+  kernel::SlidingLoads begin_of(std::size_t thread) const {
+    return thread == 0 ? kernel::SlidingLoads{0, 0} : ends_[thread - 1];
+  }
   static std::size_t count(Index n) { return static_cast<std::size_t>(n); }
 
   const KernelTable* kernels_ = &kernels();
   std::vector<kernel::SlidingThread> threads_;
   std::vector<Index> nodes_;
   std::vector<kernel::Joint> joints_;
-  std::vector<Index> number_;     ///< joint: its number in the scene
-  std::vector<bool> books_ring_;  ///< ring
+  std::vector<Index> number_;                        ///< joint: its number in the scene
+  std::vector<Index> scene_thread_;                  ///< thread: its number in the scene
+  std::unordered_map<Index, Index> users_, locals_;  ///< node, where a piece has numbers of its own
+  std::vector<bool> books_ring_;                     ///< ring
   std::vector<kernel::JointState> states_;
   std::vector<kernel::RingTally*> tallies_;  ///< ring
   AlignedVector<double> scratch_;
-  std::vector<kernel::Load> on_threads_, on_hosts_;  ///< room for all
-  kernel::SlidingLoads counts_{0, 0};
+  std::vector<kernel::Load> on_threads_, on_hosts_, pushing_;  ///< room for all
+  Index pushes_ = 0;
+  std::vector<kernel::SlidingLoads> ends_;  ///< thread: behind its loads
 };
 
 }  // namespace cinch

@@ -35,13 +35,18 @@ struct NodeSums {
   std::vector<double> stiffness, damping;
 };
 
-NodeSums node_sums(const Model& model) {
+// Of all elements, or of those of sliding threads only.
+NodeSums node_sums(const Model& model, bool only_sliding = false) {
   NodeSums sums{std::vector<double>(at(model.nodes)), std::vector<double>(at(model.nodes))};
-  for (std::size_t e = 0; e < at(model.elements); ++e)
+  const auto add = [&](std::size_t e) {
     for (const Index end : {model.end_a[e], model.end_b[e]}) {
       sums.stiffness[at(end)] += model.stiffness[e];
       sums.damping[at(end)] += model.damping[e];
     }
+  };
+  for (std::size_t e = 0; !only_sliding && e < at(model.elements); ++e) add(e);
+  for (std::size_t t = 0; only_sliding && t < model.sliding_threads.size(); ++t)
+    for (Index e = 0; e < model.sliding_threads[t].elements; ++e) add(at(model.sliding_first[t] + e));
   for (const kernel::SlidingThread& thread : model.sliding_threads)
     for (Index j = thread.joint_begin; j < thread.joint_end; ++j)
       for_each_host(model, model.joints[at(j)], [&](std::size_t node, double weight) {
@@ -60,6 +65,10 @@ struct Usage {
     linear += weight * sums.damping[node] * inverse_mass[node] / 2;
   }
   double at_step(double step) const { return (quadratic * step + linear) * step; }
+  /// Where it reaches `limit`: the positive root, free of cancellation.
+  double step_at(double limit) const {
+    return 2 * limit / (linear + std::sqrt(linear * linear + 4 * quadratic * limit));
+  }
 };
 
 // What all rings of a thread, should they meet in one of its elements, add to that element's usage; by
@@ -78,17 +87,35 @@ std::vector<Usage> ring_usages(const Model& model, const NodeSums& sums,
   return usages;
 }
 
+// Of element e, with what rings add to it.
+Usage usage_of(const Model& model, const NodeSums& sums, const std::vector<double>& inverse_mass,
+               const std::vector<Usage>& rings, std::size_t e) {
+  Usage usage = rings.empty() ? Usage{} : rings[e];
+  usage.add(sums, inverse_mass, at(model.end_a[e]), 1);
+  usage.add(sums, inverse_mass, at(model.end_b[e]), 1);
+  return usage;
+}
+
 // Calls visit(e, usage) for each element.
 template <class Visit>
 void for_each_usage(const Model& model, const std::vector<double>& inverse_mass, Visit visit) {
   const NodeSums sums = node_sums(model);
   const std::vector<Usage> rings = ring_usages(model, sums, inverse_mass);
-  for (std::size_t e = 0; e < at(model.elements); ++e) {
-    Usage usage = rings.empty() ? Usage{} : rings[e];
-    usage.add(sums, inverse_mass, at(model.end_a[e]), 1);
-    usage.add(sums, inverse_mass, at(model.end_b[e]), 1);
-    visit(e, usage);
-  }
+  for (std::size_t e = 0; e < at(model.elements); ++e)
+    visit(e, usage_of(model, sums, inverse_mass, rings, e));
+}
+
+// Calls visit(e, usage) for each element of a sliding thread: of the joints that hold, for the time that they
+// do.
+template <class Visit>
+void for_each_joint_usage(const Model& model, const std::vector<double>& inverse_mass, Visit visit) {
+  const NodeSums sums = node_sums(model, true);
+  const std::vector<Usage> rings = ring_usages(model, sums, inverse_mass);
+  for (std::size_t t = 0; t < model.sliding_threads.size(); ++t)
+    for (Index k = 0; k < model.sliding_threads[t].elements; ++k) {
+      const std::size_t e = at(model.sliding_first[t] + k);
+      visit(e, usage_of(model, sums, inverse_mass, rings, e));
+    }
 }
 
 }  // namespace
@@ -97,8 +124,7 @@ StableStep stable_step(const Model& model) {
   StableStep out;
   out.step = std::numeric_limits<double>::infinity();
   for_each_usage(model, mobility(model), [&](std::size_t e, const Usage& u) {
-    // the positive root of quadratic dt^2 + linear dt = 1, free of cancellation
-    const double step = 2 / (u.linear + std::sqrt(u.linear * u.linear + 4 * u.quadratic));
+    const double step = u.step_at(1);
     if (step < out.step) {
       out.step = step;
       out.element = static_cast<Index>(e);
@@ -107,22 +133,38 @@ StableStep stable_step(const Model& model) {
   return out;
 }
 
-std::vector<double> node_share(const Model& model, double step) {
+int joint_steps(const Model& model, double step, double share, int most) {
   const std::vector<double> inverse = mobility(model);
-  std::vector<double> used(inverse.size());
-  const auto use = [&](std::size_t node, double usage) { used[node] = std::max(used[node], usage); };
-  std::vector<double> greatest(model.sliding_threads.size());
-  for_each_usage(model, inverse, [&](std::size_t e, const Usage& usage) {
-    use(at(model.end_a[e]), usage.at_step(step));
-    use(at(model.end_b[e]), usage.at_step(step));
-    for (std::size_t t = 0; t < greatest.size(); ++t)
-      if (model.slides_on(t, static_cast<Index>(e))) greatest[t] = std::max(greatest[t], usage.at_step(step));
+  std::vector<double> used(at(model.elements));
+  for_each_usage(model, inverse, [&](std::size_t e, const Usage& usage) { used[e] = usage.at_step(step); });
+  double steps = most;
+  for_each_joint_usage(model, inverse, [&](std::size_t e, const Usage& usage) {
+    const double limit = std::min(share, 1 - used[e]);
+    steps = std::min(steps, limit > 0 ? usage.step_at(limit) / step : 1.0);
   });
-  for (std::size_t t = 0; t < greatest.size(); ++t)
-    for (Index j = model.sliding_threads[t].joint_begin; j < model.sliding_threads[t].joint_end; ++j)
-      for_each_host(model, model.joints[at(j)], [&](std::size_t node, double) { use(node, greatest[t]); });
-  for (std::size_t i = 0; i < used.size(); ++i) used[i] = inverse[i] / std::max(1 - used[i], 1e-3);
-  return used;
+  return std::max(1, static_cast<int>(steps));
+}
+
+std::vector<double> node_share(const Model& model, double step, int joint_steps) {
+  const std::vector<double> inverse = mobility(model);
+  std::vector<double> used(at(model.elements)), used_at(inverse.size());
+  for_each_usage(model, inverse, [&](std::size_t e, const Usage& usage) { used[e] = usage.at_step(step); });
+  if (joint_steps > 1)
+    for_each_joint_usage(model, inverse, [&](std::size_t e, const Usage& usage) {
+      used[e] += usage.at_step(joint_steps * step);
+    });
+  const auto use = [&](Index node, double usage) { used_at[at(node)] = std::max(used_at[at(node)], usage); };
+  for (std::size_t e = 0; e < used.size(); ++e) use(model.end_a[e], used[e]), use(model.end_b[e], used[e]);
+  for (std::size_t t = 0; t < model.sliding_threads.size(); ++t) {
+    const kernel::SlidingThread& thread = model.sliding_threads[t];
+    const auto first = used.begin() + model.sliding_first[t];
+    const double greatest = *std::max_element(first, first + thread.elements);
+    for (Index j = thread.joint_begin; j < thread.joint_end; ++j)
+      for_each_host(model, model.joints[at(j)],
+                    [&](std::size_t node, double) { use(static_cast<Index>(node), greatest); });
+  }
+  for (std::size_t i = 0; i < used_at.size(); ++i) used_at[i] = inverse[i] / std::max(1 - used_at[i], 1e-3);
+  return used_at;
 }
 
 }  // namespace cinch

@@ -15,6 +15,11 @@
 // and w at a host that is not slack is bounded for all that the rings can do. As nobody knows which rings
 // meet in one element, each element of their thread counts all of them: on the safe side, and next to nothing
 // where rings are heavier than its nodes.
+//
+// Forces of sliding joints that hold for m steps are central differences of step m dt among themselves
+// (sliding_joint.cpp). An element of a sliding thread then uses, besides, what the same sums come to with
+// m dt and with only the stiffness and damping of such threads in S and C. That leaves open how slow and fast
+// forces at one node beat; the energy's books watch over it.
 #pragma once
 #include <string>
 #include <vector>
@@ -30,8 +35,12 @@ struct StableStep {
 
 StableStep stable_step(const Model& model);
 
+/// For how many steps of `step` s forces of sliding joints may hold: at most `most`, and so that this uses no
+/// more than `share` of what stability allows, nor more than is left. At least 1.
+int joint_steps(const Model& model, double step, double share, int most);
+
 /// By node: 1 / (m (1 - u)), u the largest usage at `step` of the elements at the node: what contacts have
-/// left, 1/kg. A fixed node has 0.
-std::vector<double> node_share(const Model& model, double step);
+/// left, 1/kg. A fixed node has 0. Forces of sliding joints hold for `joint_steps`.
+std::vector<double> node_share(const Model& model, double step, int joint_steps);
 
 }  // namespace cinch

@@ -50,7 +50,8 @@ std::vector<StageInfo> StepPlan::stages(const Model& model) const {
   list.push_back({"sliding joints", joints,
                   joints ? count(model.joints.size(), "rings on ") +
                                count(model.sliding_threads.size(),
-                                     model.sliding_threads.size() == 1 ? "thread" : "threads")
+                                     model.sliding_threads.size() == 1 ? "thread" : "threads") +
+                               (joint_steps > 1 ? ", every " + std::to_string(joint_steps) + " steps" : "")
                          : "no ring slides in this phase"});
   list.push_back({"couple of eq. (12)", rings && couple,
                   !rings   ? "no ring contact"

@@ -1,5 +1,6 @@
 // The stages of a step: which of them this scene needs, and why the others are left out.
 #pragma once
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -19,7 +20,9 @@ struct StageInfo {
 };
 
 struct StepPlan {
-  double dt = 0;  ///< s
+  double dt = 0;                ///< s
+  std::int64_t first_step = 0;  ///< of the phase
+  int joint_steps = 1;          ///< for which forces of sliding joints hold
   bool damped = false, ledger = false, gravity = false, rings = false, balls = false, joints = false;
   bool couple = true, golden = false;
   double alpha_ring = 0, alpha_target = 0;  ///< s/m
@@ -33,6 +36,8 @@ struct StepPlan {
   bool contacts() const { return touches() || joints; }
   /// Whether there are pairs that may touch.
   bool touches() const { return rings || balls; }
+  /// Steps at `step` since the forces of sliding joints were last due; 0: they are.
+  int joints_hold(std::int64_t step) const { return static_cast<int>((step - first_step) % joint_steps); }
   std::vector<StageInfo> stages(const Model& model) const;
 };
 

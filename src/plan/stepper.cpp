@@ -133,8 +133,8 @@ void Stepper::judge(double greatest, Progress& p) const {
   if (greatest > plan_.speed_limit * plan_.speed_limit) p.verdict = Verdict::unhealthy;
 }
 
-double Stepper::move(Piece& piece, double time, int steps, double motion, StageClock& clock) {
-  if (plan_.contacts()) return piece.step(time, motion, clock);
+double Stepper::move(Piece& piece, std::int64_t first, int steps, double motion, StageClock& clock) {
+  if (plan_.contacts()) return piece.step(first, motion, clock);
   piece.sweep(steps, clock);
   return 0;
 }
@@ -148,8 +148,7 @@ Stepper::Progress Stepper::run_thread(State& state, std::int64_t steps, int thre
   while (from.done < steps && from.verdict == Verdict::go_on) {
     StageClock clock(from.windows++, thread == 0 ? sampled_ : unread);
     const int stretch = static_cast<int>(std::min<std::int64_t>(piece.levels(), steps - from.done));
-    const double time = static_cast<double>(first + from.done) * plan_.dt;
-    double greatest = move(piece, time, stretch, from.motion, clock);
+    double greatest = move(piece, first + from.done, stretch, from.motion, clock);
     from.done += stretch;
     if (threads_ > 1) {
       exchange_.post(thread, piece, greatest);
@@ -216,9 +215,8 @@ void Stepper::glance(State& state, Glance& out) {
   const std::size_t rows = at(model_->ledger_rows() * kernel::lanes);
   out.elastic.assign(rows, 0.0);
   out.due.assign(plan_.damped && plan_.ledger ? rows : 0, 0.0);
-  const double time = static_cast<double>(state.step) * plan_.dt;
 #pragma omp parallel for num_threads(threads_) schedule(static, 1) if (threads_ > 1)
-  for (int p = 0; p < threads_; ++p) pieces_[at(p)]->glance(state, time, motion_, out);
+  for (int p = 0; p < threads_; ++p) pieces_[at(p)]->glance(state, motion_, out);
   out.loads.clear();
   for (const auto& piece : pieces_) piece->append_loads(out.loads);
 }

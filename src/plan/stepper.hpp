@@ -72,7 +72,7 @@ class Stepper {
   void judge(double greatest, Progress& progress) const;
   Progress run(State& state, std::int64_t steps);
   Progress run_thread(State& state, std::int64_t steps, int thread, Progress from);
-  double move(Piece& piece, double time, int steps, double motion, StageClock& clock);
+  double move(Piece& piece, std::int64_t first, int steps, double motion, StageClock& clock);
 
   const Model* model_;
   StepPlan plan_;

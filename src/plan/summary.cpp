@@ -70,6 +70,7 @@ Summary Simulation::summary() {
   s.threads = threads_;
   s.steps = state_.step;
   s.time_step = preparation_.dt;
+  s.joint_steps = preparation_.phases.back().plan.joint_steps;
   s.simulated_seconds = time();
   s.nodes = preparation_.whole().nodes;
   s.elements = preparation_.whole().elements;

@@ -188,6 +188,7 @@ struct TimeSpec {
   double end = 0;                ///< s
   double step = 0;               ///< s; 0: automatic
   double safety = 0.5;           ///< automatic step over the stable bound
+  int joint_steps = 0;           ///< steps for which forces of sliding joints hold; 0: automatic
   bool allow_unstable = false;   ///< accept a step above the bound
   double speed_limit = 1e5;      ///< m/s, a faster node stops the run
   double residual_limit = 0.05;  ///< of the energy ledger, relative; a greater one stops the run

@@ -67,11 +67,49 @@ void transfer_joints(Archive& archive, std::vector<kernel::JointState>& joints, 
   archive.column("joints/rings", joints, &Joint::rings, 0, static_cast<std::int64_t>(joints.size()));
   archive.column("joints/damper", joints, &Joint::damper);
   archive.column("joints/straight_damper", joints, &Joint::straight_damper);
+  archive.column("joints/last_length", joints, &Joint::last_length);
+  archive.column("joints/last_straight", joints, &Joint::last_straight);
   archive.column("joints/length", joints, &Joint::length);
   archive.column("joints/tension", joints, &Joint::tension);
   archive.column("joints/energy", joints, &Joint::energy);
   archive.column("joints/along", joints, &Joint::along);
   archive.column("joints/due", joints, &Joint::due);
+}
+
+// Loads of a thread lie on its nodes, or on those of its rings' hosts.
+void require_nodes(const Archive& archive, HeldLoads& held, const Model& model,
+                   const kernel::SlidingThread& thread, kernel::SlidingLoads count) {
+  const auto nodes = model.sliding_nodes.begin() + thread.node_begin;
+  std::vector<Index> own(nodes, nodes + thread.elements + 1), hosts;
+  for (Index j = thread.joint_begin; j < thread.joint_end; ++j) {
+    const kernel::Joint& joint = model.joints[static_cast<std::size_t>(j)];
+    hosts.insert(hosts.end(), {joint.host_a, joint.host_b});
+  }
+  const auto all_on = [](const kernel::Load* first, Index n, const std::vector<Index>& allowed) {
+    return std::all_of(first, first + n, [&](const kernel::Load& load) {
+      return std::find(allowed.begin(), allowed.end(), load.node) != allowed.end();
+    });
+  };
+  if (!all_on(held.on_threads(thread.joint_begin), count.threads, own) ||
+      !all_on(held.on_hosts(thread.joint_begin, thread.joint_end), count.hosts, hosts))
+    archive.refuse("joints/held_node", "names a node that has no such force");
+}
+
+void transfer_held(Archive& archive, HeldLoads& held, const Model& model) {
+  using Load = kernel::Load;
+  archive.column("joints/held_node", held.loads, &Load::node, 0, model.nodes - 1);
+  archive.column("joints/held_x", held.loads, &Load::x);
+  archive.column("joints/held_y", held.loads, &Load::y);
+  archive.column("joints/held_z", held.loads, &Load::z);
+  for (std::size_t t = 0; t < held.count.size(); ++t) {
+    const kernel::SlidingThread& thread = model.sliding_threads[t];
+    const Index joints = thread.joint_end - thread.joint_begin;
+    const std::string name = "joints/held_count/" + std::to_string(t);
+    archive.whole(name + "/threads", held.count[t].threads, 0, joints * kernel::joint_thread_loads);
+    archive.whole(name + "/hosts", held.count[t].hosts, 0,
+                  joints * (kernel::joint_loads - kernel::joint_thread_loads));
+    require_nodes(archive, held, model, thread, held.count[t]);
+  }
 }
 
 // Each ring lies in an element of its thread, none before the one that it follows.
@@ -100,7 +138,10 @@ void transfer(Archive& archive, State& state, const Model& model) {
   if (!state.rings.empty()) transfer_rings(archive, state.rings, least, model.elements);
   for (std::size_t b = 0; b < state.balls.size(); ++b)
     transfer_ball(archive, "targets/" + std::to_string(b), state.balls[b], least, model.elements);
-  if (!state.joints.empty()) transfer_joints(archive, state.joints, model);
+  if (!state.joints.empty()) {
+    transfer_joints(archive, state.joints, model);
+    transfer_held(archive, state.held, model);
+  }
   require_order(archive, state, model);
   if (!state.reactions.empty()) transfer_reactions(archive, state.reactions);
 }

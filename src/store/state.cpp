@@ -7,7 +7,11 @@
 
 namespace cinch {
 
-State::State(const Model& model) {
+HeldLoads::HeldLoads(const Model& model)
+    : loads(model.joints.size() * kernel::joint_loads, kernel::Load{}),
+      count(model.sliding_threads.size(), kernel::SlidingLoads{}) {}
+
+State::State(const Model& model) : held(model) {
   for (const NodeField& field : node_fields)
     (this->*field.values).assign(static_cast<std::size_t>(model.nodes), 0.0);
   dissipated.assign(static_cast<std::size_t>(model.ledger_rows() * kernel::lanes), 0.0);

@@ -7,6 +7,20 @@
 
 namespace cinch {
 
+/// Forces of sliding joints that hold for some steps, in the user's numbers.
+struct HeldLoads {
+  std::vector<kernel::Load> loads;          ///< joint x kernel::joint_loads, of which are used:
+  std::vector<kernel::SlidingLoads> count;  ///< sliding thread: so many on its nodes and on hosts
+
+  HeldLoads() = default;
+  explicit HeldLoads(const Model& model);
+  /// Those of a thread that has the joints [begin, end): at most as many as there is room for.
+  kernel::Load* on_threads(Index begin) { return loads.data() + kernel::joint_loads * begin; }
+  kernel::Load* on_hosts(Index begin, Index end) {
+    return on_threads(begin) + kernel::joint_thread_loads * (end - begin);
+  }
+};
+
 struct State {
   std::int64_t step = 0;  ///< positions are those of time step * dt, velocities of half a step earlier
 
@@ -18,6 +32,7 @@ struct State {
   std::vector<std::vector<kernel::BallTally>>
       balls;                                ///< ball: of pairs that are over, then of each present pair
   std::vector<kernel::JointState> joints;   ///< joint
+  HeldLoads held;                           ///< of the joints
   std::vector<kernel::Reaction> reactions;  ///< constraint
 
   /// Allocates for `model`; all zero, tallies as never touched.

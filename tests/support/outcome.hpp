@@ -19,7 +19,7 @@ inline void append(std::string& bits, const List& list) {
   bits.append(reinterpret_cast<const char*>(list.data()), list.size() * sizeof(typename List::value_type));
 }
 
-static_assert(sizeof(kernel::JointState) == 11 * sizeof(double) + 4 * sizeof(int),
+static_assert(sizeof(kernel::JointState) == 13 * sizeof(double) + 4 * sizeof(int),
               "no padding between its fields");
 static_assert(sizeof(kernel::RingTally) == 16 * sizeof(double) + 2 * sizeof(int),
               "no padding between its fields");

@@ -90,6 +90,12 @@ inline Case sliding_ring_pull() {
   return sliding({"ring_pull", {{"thread.main.velocity_m_s", "[0, 0, -1]"}}, 0}, 26, "2e-5", 20000);
 }
 inline Case sliding_capture() { return sliding(capture(), 3, "4e-6", 8000); }
+inline Case held_capture() {
+  Case one = sliding_capture();
+  one.sets.push_back({"time.joint_steps", "3"});
+  one.steps = 7999;  // two of the last three
+  return one;
+}
 
 // The large capture in full size: hundreds of blocks, few steps.
 inline Case full_large_capture() {
