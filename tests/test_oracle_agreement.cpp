@@ -331,6 +331,35 @@ TEST(OracleAgreementFromStart, CaptureStowedAcrossClosing) {
       read("capture", {{"closing.time_s", "0.00003"}, {"target.ball.center_m", "[0, 0, 0.1505]"}}), 36);
 }
 
+// Elements across run from block to block of nodes, with their forces.
+TEST(OracleAgreementFromStart, ALongNarrowNet) {
+  for (const char* damping : {"0", "0.106"}) {
+    SCOPED_TRACE(damping);
+    compare_from_start(parse_case(std::string(R"(schema = 1
+[time]
+end_s = 1
+step_s = 1e-6
+[material.m]
+youngs_modulus_Pa = 1e9
+density_kg_m3 = 970
+damping_ratio = )") + damping + R"(
+[net.main]
+material = "m"
+diameter_m = 0.002
+size_m = [0.3, 150]
+mesh_m = 0.1
+stowed_factor = 1.01
+[net.main.node]
+top_left = { support = "fixed" }
+"knot.1.500" = { velocity_m_s = [1, 2, 3] }
+"knot.2.511" = { velocity_m_s = [-5, 2, 1] }
+"knot.1.512" = { velocity_m_s = [1, -2, 4] }
+)",
+                                  "narrow.toml"),
+                       100);
+  }
+}
+
 TEST(OracleAgreementFromStart, LargeCaptureAcrossClosing) {
   compare_from_start(read("large_capture", small_large_capture("0.00006")), 60);
 }

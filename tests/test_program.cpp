@@ -155,6 +155,34 @@ TEST_F(Program, CheckSaysWhatACaseWouldDo) {
   EXPECT_TRUE(has(out(), "alpha_ring_s_m"));
 }
 
+// A light mass on a slack rope, whirled for as long as it takes to forget how it began.
+TEST_F(Program, CheckTellsWhatIsByChance) {
+  write("whirled.toml", R"(schema = 1
+[time]
+end_s = 8
+[output]
+frame_interval_s = 0.1
+[gravity]
+acceleration_m_s2 = [0, 0, -9.81]
+[material.m]
+youngs_modulus_Pa = 1e6
+density_kg_m3 = 970
+damping_ratio = 0.06
+[thread.main]
+material = "m"
+diameter_m = 0.01
+elements = 4
+points_m = [[0, 0, 0], [0.3, 0, 0.4]]
+start = { support = "fixed" }
+end = { mass_kg = 0.02, velocity_m_s = [0, 1, 3] }
+[probe.end]
+quantity = "position"
+of = "thread.main.end"
+)");
+  ASSERT_EQ(run({"check", "whirled.toml", "--error"}), 0) << err();
+  EXPECT_TRUE(has(out(), "  by chance\n") && has(out(), "--runs N compares means")) << out();
+}
+
 TEST_F(Program, CheckTellsTheErrorWhereAsked) {
   ASSERT_EQ(run({"check", "tiny.toml", "--error"}), 0) << err();
   const std::string text = out();

@@ -56,6 +56,23 @@ TEST_F(Reported, CheckLooksBeyondTheClosing) {
   EXPECT_TRUE(has(out(), "closing          at 1.5 s: ") && has(out(), "expected time")) << out();
 }
 
+TEST_F(Reported, CheckTellsForHowManyStepsForcesOfJointsHold) {
+  Words words{"check", CINCH_SOURCE_DIR "/cases/capture.toml"};
+  for (const char* set : {"case.method=sliding", "time.step_s=auto", "time.joint_steps=2"})
+    words.insert(words.end(), {"--set", set});
+  for (const char* thread : {"c_top", "c_right", "c_bottom", "c_left"})
+    words.insert(words.end(), {"--set", std::string("thread.") + thread + ".elements=12"});
+  ASSERT_EQ(run(words), 0) << err();
+  EXPECT_TRUE(has(out(), "sliding joints       16 rings on 4 threads, every 2 steps")) << out();
+}
+
+// A bar in a folder's name would end the cell.
+TEST_F(Reported, CellsOfTheTableStayWhole) {
+  for (const char* name : {"a|b", "c"}) simulate("ring_pull", name, {"time.end_s=0.01"});
+  ASSERT_EQ(run({"report", "a|b", "c", "--html", "page.html", "--table", "table.md"}), 0) << err();
+  EXPECT_TRUE(has(text_of(path("table.md")), "(a\\|b)")) << text_of(path("table.md"));
+}
+
 TEST_F(Reported, CheckTellsThatTheMotionGoesWrong) {
   ASSERT_EQ(run({"check", "tiny.toml", "--set", "time.step_s=1.25e-5", "--set", "time.allow_unstable=true",
                  "--set", "time.end_s=1"}),

@@ -94,10 +94,7 @@ std::string node_label(const Assembly& assembly, Index node) {
     if (found != part.nodes.end())
       return "node " + std::to_string(found - part.nodes.begin()) + " of " + part.reference();
   }
-  const auto& masses = assembly.named;  // a node in no part is one of them
-  const auto found =
-      std::find_if(masses.begin(), masses.end(), [&](const NamedNode& m) { return m.node == node; });
-  return found == masses.end() ? "node " + std::to_string(node) : "the mass " + found->name;
+  return "node " + std::to_string(node);
 }
 
 Preparation prepare(const Scene& scene) {
