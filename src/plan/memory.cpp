@@ -23,7 +23,8 @@ std::size_t memory_of(const Model& m) {
 }
 
 std::size_t memory_of(const State& s) {
-  std::size_t sum = bytes_of(s.x, s.y, s.z, s.vx, s.vy, s.vz, s.dissipated, s.rings, s.joints, s.reactions);
+  std::size_t sum = bytes_of(s.x, s.y, s.z, s.vx, s.vy, s.vz, s.dissipated, s.rings, s.joints, s.held.loads,
+                             s.held.count, s.reactions);
   for (const auto& ball : s.balls) sum += bytes_of(ball);
   return sum;
 }
@@ -58,7 +59,8 @@ std::size_t NearContacts::memory() const {
 }
 
 std::size_t SlidingJoints::memory() const {
-  return bytes_of(nodes_, joints_, number_, states_, tallies_, scratch_, on_threads_, on_hosts_);
+  return bytes_of(threads_, nodes_, joints_, number_, scene_thread_, states_, tallies_, scratch_, on_threads_,
+                  on_hosts_, pushing_, ends_);
 }
 
 std::size_t Piece::memory() const {

@@ -71,17 +71,25 @@ void SlidingJoints::renumber(const std::function<Index(Index)>& local) {
 
 namespace {
 
-// Copies loads and gives their nodes the numbers that they have there.
-kernel::Load* copy_loads(const kernel::Load* first, const kernel::Load* last, kernel::Load* to,
+// Copies loads and gives their nodes the numbers that they have there; returns behind the last.
+kernel::Load* copy_loads(std::span<const kernel::Load> from, kernel::Load* to,
                          const std::unordered_map<Index, Index>& numbers) {
-  for (; first != last; ++first, ++to) {
-    *to = *first;
-    if (!numbers.empty()) to->node = numbers.at(first->node);
+  for (const kernel::Load& load : from) {
+    *to = load;
+    if (!numbers.empty()) to->node = numbers.at(load.node);
+    ++to;
   }
   return to;
 }
 
 }  // namespace
+
+SlidingJoints::Held SlidingJoints::held_of(State& state, std::size_t t) const {
+  const Index begin = number_[at(threads_[t].joint_begin)];
+  const Index end = begin + threads_[t].joint_end - threads_[t].joint_begin;
+  return {state.held.on_threads(begin), state.held.on_hosts(begin, end),
+          state.held.count[at(scene_thread_[t])]};
+}
 
 void SlidingJoints::take(State& state) {
   for (std::size_t j = 0; j < number_.size(); ++j) states_[j] = state.joints[at(number_[j])];
@@ -89,13 +97,9 @@ void SlidingJoints::take(State& state) {
     tallies_[at(joint.ring)] = books_ring_[at(joint.ring)] ? &state.rings[at(joint.ring)] : nullptr;
   kernel::Load *to_threads = on_threads_.data(), *to_hosts = on_hosts_.data();
   for (std::size_t t = 0; t < threads_.size(); ++t) {
-    const Index begin = number_[at(threads_[t].joint_begin)];
-    const Index end = begin + threads_[t].joint_end - threads_[t].joint_begin;
-    const kernel::SlidingLoads count = state.held.count[at(scene_thread_[t])];
-    const kernel::Load *const held = state.held.on_threads(begin), *const on_hosts =
-                                                                       state.held.on_hosts(begin, end);
-    to_threads = copy_loads(held, held + count.threads, to_threads, locals_);
-    to_hosts = copy_loads(on_hosts, on_hosts + count.hosts, to_hosts, locals_);
+    const Held held = held_of(state, t);
+    to_threads = copy_loads({held.on_threads, count(held.count.threads)}, to_threads, locals_);
+    to_hosts = copy_loads({held.on_hosts, count(held.count.hosts)}, to_hosts, locals_);
     ends_[t] = {static_cast<Index>(to_threads - on_threads_.data()),
                 static_cast<Index>(to_hosts - on_hosts_.data())};
   }
@@ -107,14 +111,11 @@ void SlidingJoints::give(State& state) const {
     if (!thread.booked) continue;
     for (Index j = thread.joint_begin; j < thread.joint_end; ++j)
       state.joints[at(number_[at(j)])] = states_[at(j)];
-    const Index begin = number_[at(thread.joint_begin)];
-    const Index end = begin + thread.joint_end - thread.joint_begin;
-    const kernel::SlidingLoads from = begin_of(t), to = ends_[t];
-    copy_loads(on_threads_.data() + from.threads, on_threads_.data() + to.threads,
-               state.held.on_threads(begin), users_);
-    copy_loads(on_hosts_.data() + from.hosts, on_hosts_.data() + to.hosts, state.held.on_hosts(begin, end),
-               users_);
-    state.held.count[at(scene_thread_[t])] = {to.threads - from.threads, to.hosts - from.hosts};
+    const kernel::SlidingLoads from = t == 0 ? kernel::SlidingLoads{0, 0} : ends_[t - 1];
+    const Held held = held_of(state, t);
+    held.count = {ends_[t].threads - from.threads, ends_[t].hosts - from.hosts};
+    copy_loads({on_threads_.data() + from.threads, count(held.count.threads)}, held.on_threads, users_);
+    copy_loads({on_hosts_.data() + from.hosts, count(held.count.hosts)}, held.on_hosts, users_);
   }
 }
 

@@ -45,14 +45,17 @@ class SlidingJoints {
   std::size_t memory() const;  ///< bytes, see memory.hpp
 
  private:
+  /// Where a state keeps the loads of a thread that hold.
+  struct Held {
+    kernel::Load *on_threads, *on_hosts;
+    kernel::SlidingLoads& count;
+  };
+  Held held_of(State& state, std::size_t thread) const;
   void add_thread(const Model& model, std::size_t thread, bool booked);
   kernel::SlidingArguments arguments(const NodeView& nodes, const StepPlan& plan, double time,
                                      double booked_dt, double ahead, double since);
   void make_room(const Model& model);
   kernel::SlidingLoads total() const { return ends_.empty() ? kernel::SlidingLoads{0, 0} : ends_.back(); }
-  kernel::SlidingLoads begin_of(std::size_t thread) const {
-    return thread == 0 ? kernel::SlidingLoads{0, 0} : ends_[thread - 1];
-  }
   static std::size_t count(Index n) { return static_cast<std::size_t>(n); }
 
   const KernelTable* kernels_ = &kernels();
