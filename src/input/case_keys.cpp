@@ -69,9 +69,9 @@ const Section<TimeSpec>& time_section() {
             .fallback = "\"auto\"",
             .by_method = {{"paper", "1"}},
             .meaning = "Steps for which the forces of sliding joints hold: they are computed for where nodes "
-                       "will be in the middle of them. `auto`: as many, up to 8, as use a quarter of what "
-                       "keeps the joints stable.",
-            .source = "`bench/study`: errors as with 1, a third of the run time"},
+                       "will be in the middle of them. `auto`: as many, up to 8, as would still be stable "
+                       "for twice the stiffness at the stable step.",
+            .source = "`bench/study`: errors as with 1 in less than half of the run time"},
            [](TimeSpec& time, const Value& value) { time.joint_steps = value.is_word ? 0 : value.whole; }},
           {{.name = "allow_unstable",
             .type = flag,
