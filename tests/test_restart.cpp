@@ -217,6 +217,10 @@ TEST(Restart, RefusalsNameTheFieldAndWhatIsAllowed) {
             "error: memory: rings/state holds 3; allowed: 0 to 2");
   EXPECT_EQ(refused([](Entries& e) { list<std::int64_t>(e, "phase")[0] = 0; }),
             "error: memory: state/x has another length");
+  EXPECT_EQ(refused([](Entries& e) {
+              list<std::int64_t>(e, "state/step")[0] = std::numeric_limits<std::int64_t>::max();
+            }),
+            "error: memory: state/step holds 9223372036854775807; allowed: 0 to 1000000000000000");
   EXPECT_EQ(refused([](Entries& e) { list<std::int64_t>(e, "state/step")[0] = 7; }),
             "error: memory: phase is not the one at that time");
   EXPECT_NE(refused([](Entries& e) { list<std::int64_t>(e, "contacts/element").pop_back(); }), "");
