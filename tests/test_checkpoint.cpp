@@ -11,10 +11,12 @@
 #include "base/error.hpp"
 #include "output/checkpoint.hpp"
 #include "output/descriptor.hpp"
+#include "support/file_error.hpp"
 
 namespace {
 
 using namespace cinch;
+using test::file_error_of;
 namespace fs = std::filesystem;
 
 struct Scratch {
@@ -49,12 +51,7 @@ void write(const fs::path& file, double mark) {
 }
 
 std::string complaint(const fs::path& path) {
-  try {
-    CheckpointReader reader(path);
-  } catch (const FileError& error) {
-    return error.what();
-  }
-  return "";
+  return file_error_of([&] { CheckpointReader reader(path); });
 }
 
 TEST(Checkpoint, ComesBackToTheBit) {
@@ -153,40 +150,25 @@ TEST(Checkpoint, FieldsThatDoNotFitAreNamed) {
   const Scratch scratch;
   write(scratch.file(), 7);
   CheckpointReader in(scratch.file());
-  const auto said = [&](auto&& read) {
-    try {
-      read();
-    } catch (const FileError& error) {
-      return std::string(error.what());
-    }
-    return std::string("nothing");
-  };
   double one = 0;
   std::int64_t number = 0;
   std::vector<std::string> words;
   const std::string file = "error: " + scratch.file().string() + ": ";
-  EXPECT_EQ(said([&] { in.value("a/numbers", one); }), file + "a/numbers has 4 values; the case needs 1");
-  EXPECT_EQ(said([&] { in.value("a/other", one); }), file + "a/other is missing");
-  EXPECT_EQ(said([&] { in.whole("yes", number, 2, 9); }), file + "yes holds 1; allowed: 2 to 9");
-  EXPECT_NE(said([&] { in.texts("a/numbers", words); }), "nothing");
-  EXPECT_NE(said([&] { in.value("words", one); }), "nothing");
+  EXPECT_EQ(file_error_of([&] { in.value("a/numbers", one); }),
+            file + "a/numbers has 4 values; the case needs 1");
+  EXPECT_EQ(file_error_of([&] { in.value("a/other", one); }), file + "a/other is missing");
+  EXPECT_EQ(file_error_of([&] { in.whole("yes", number, 2, 9); }), file + "yes holds 1; allowed: 2 to 9");
+  EXPECT_NE(file_error_of([&] { in.texts("a/numbers", words); }), "");
+  EXPECT_NE(file_error_of([&] { in.value("words", one); }), "");
 }
 
 TEST(Descriptor, TellsTheSystemsReason) {
-  const auto said = [](auto&& use) {
-    try {
-      use();
-    } catch (const FileError& error) {
-      return std::string(error.what());
-    }
-    return std::string();
-  };
   std::vector<std::uint8_t> bytes(10);
-  EXPECT_EQ(said([&] { Descriptor("/dev/full", O_WRONLY).write_at(0, bytes); }),
+  EXPECT_EQ(file_error_of([&] { Descriptor("/dev/full", O_WRONLY).write_at(0, bytes); }),
             "error: /dev/full: cannot write it: No space left on device");
-  EXPECT_EQ(said([&] { Descriptor("/", O_RDONLY | O_DIRECTORY).read_at(0, bytes); }),
+  EXPECT_EQ(file_error_of([&] { Descriptor("/", O_RDONLY | O_DIRECTORY).read_at(0, bytes); }),
             "error: /: cannot read it: Is a directory");
-  EXPECT_EQ(said([&] { Descriptor("/dev/full", O_WRONLY).sync(); }),
+  EXPECT_EQ(file_error_of([&] { Descriptor("/dev/full", O_WRONLY).sync(); }),
             "error: /dev/full: cannot write it: Invalid argument");
 }
 

@@ -9,6 +9,7 @@
 #include "base/error.hpp"
 #include "input/case_reader.hpp"
 #include "plan/simulation.hpp"
+#include "support/file_error.hpp"
 #include "support/memory_archive.hpp"
 #include "support/outcome.hpp"
 #include "support/quick_cases.hpp"
@@ -101,7 +102,7 @@ TEST(Restart, HeldCapture) { expect_goes_on(held_capture(), {20, 25, 26, 27, 111
 
 // A mass with a radius hits the target 0.1 ms after the start; its thread touches nothing.
 Scene thrown_sphere() {
-  Scene scene = scene_of(R"(schema = 1
+  return scene_of(R"(schema = 1
 [time]
 end_s = 1
 step_s = 1e-6
@@ -119,7 +120,6 @@ center_m = [0, 0, 0]
 radius_m = 0.1
 youngs_modulus_Pa = 1e7
 )");
-  return scene;
 }
 TEST(Restart, AMassThatTouches) { expect_goes_on(thrown_sphere(), 600, {50, 150, 333}); }
 
@@ -177,12 +177,7 @@ TEST(Restart, KnowsTheGreatestMouthSoFar) {
 // What is refused
 
 std::string refusal(const Scene& scene, const Entries& entries) {
-  try {
-    restored(scene, 1, entries);
-  } catch (const FileError& error) {
-    return error.what();
-  }
-  return "";
+  return file_error_of([&] { restored(scene, 1, entries); });
 }
 
 TEST(Restart, RefusesWhatBelongsToAnotherCase) {

@@ -27,6 +27,7 @@
 #include "output/summary_json.hpp"
 #include "output/text_file.hpp"
 #include "output/xdmf.hpp"
+#include "support/file_error.hpp"
 
 namespace cinch {
 namespace {
@@ -798,12 +799,7 @@ TEST(Results, ASummaryBesideTheFileStandsInForOneInIt) {
 }
 
 std::string refusal(const fs::path& path) {
-  try {
-    const Result result(path);
-  } catch (const FileError& error) {
-    return error.what();
-  }
-  return "";
+  return test::file_error_of([&] { const Result result(path); });
 }
 
 TEST(Results, FilesThatAreNotOursAreRefused) {
@@ -903,21 +899,15 @@ TEST(Results, ARecorderIsFinishedOnce) {
 
 TEST(Results, TextFilesTellWhyNot) {
   const Scratch scratch;
-  const auto said = [](auto&& use) {
-    try {
-      use();
-    } catch (const FileError& error) {
-      return std::string(error.what());
-    }
-    return std::string();
-  };
   const fs::path nowhere = scratch.path / "none" / "page.html";
-  EXPECT_EQ(said([&] { read_text_file(nowhere); }),
+  EXPECT_EQ(test::file_error_of([&] { read_text_file(nowhere); }),
             nowhere.string() + ": cannot read it: No such file or directory");
-  EXPECT_EQ(said([&] { replace_text_file(nowhere, "x"); }),
+  EXPECT_EQ(test::file_error_of([&] { replace_text_file(nowhere, "x"); }),
             nowhere.string() + ".tmp: cannot write it: No such file or directory");
   fs::create_directories(scratch.path / "folder" / "inside");
-  EXPECT_NE(said([&] { replace_text_file(scratch.path / "folder", "x"); }).find("cannot replace it: "),
+  EXPECT_NE(test::file_error_of([&] {
+              replace_text_file(scratch.path / "folder", "x");
+            }).find("cannot replace it: "),
             std::string::npos);
 }
 

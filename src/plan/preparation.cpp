@@ -58,9 +58,9 @@ void check_step(const Scene& scene, const Preparation& p) {
   throw CaseError(place_of_step(scene) + text);
 }
 
-// Errors stay those of 1 up to what is stable, energy residuals about so up to half of that (bench/study);
-// more than 8 would save next to nothing. The stable step decides, so that a shorter one holds joints for
-// less time.
+// At half of what is stable errors stay those of 1, and mostly energy residuals do (bench/study); more than 8
+// steps would save next to nothing. The stable step decides, so that a shorter one holds joints for less
+// time.
 constexpr double automatic_joint_share = 0.5;
 constexpr int most_automatic_joint_steps = 8;
 
