@@ -167,6 +167,16 @@ TEST(HeldJoints, TheLongestThatIsAllowedIsStable) {
   }
 }
 
+TEST(HeldJoints, TooManyAreRefusedWhereTheyAreGiven) {
+  const auto file = std::filesystem::path(CINCH_SOURCE_DIR) / "cases" / "capture.toml";
+  try {
+    prepare(read_case(file, {{"rings.r.joint", "sliding"}, {"time.joint_steps", "1000"}}));
+    ADD_FAILURE() << "not refused";
+  } catch (const CaseError& error) {
+    EXPECT_EQ(std::string(error.what()).find("--set time.joint_steps=1000: error: "), 0u) << error.what();
+  }
+}
+
 TEST(HeldJoints, FarMoreIsNot) {
   Scene scene = closing_net(26);
   scene.time.joint_steps = 14;

@@ -142,8 +142,10 @@ const SectionValues* CaseBuilder::read_single(const Section<Part>& section, Part
 void CaseBuilder::read_run() {
   if (const SectionValues* words = read_single(case_section(), scene_))
     if (const Entry* method = words->find("method")) method_ = method->value.toml.text;
-  if (const SectionValues* time = read_single(time_section(), scene_.time))
+  if (const SectionValues* time = read_single(time_section(), scene_.time)) {
     scene_.time.source.text = diagnostics_.where(time->place_of("step_s"));
+    scene_.time.joint_steps_source.text = diagnostics_.where(time->place_of("joint_steps"));
+  }
   read_single(output_section(), scene_.output);
   read_single(gravity_section(), scene_);
   read_single(start_section(), scene_);

@@ -18,9 +18,7 @@ double greatest_safety(double damping_ratio) {
   return damping_ratio < 0.005 ? 0.1 : damping_ratio < 0.01 ? 0.2 : damping_ratio < 0.05 ? 0.3 : 1.0;
 }
 
-std::string place_of_step(const Scene& scene) {
-  return scene.time.source.text.empty() ? "" : scene.time.source.text + ": ";
-}
+std::string place_of(const SourceRef& source) { return source.text.empty() ? "" : source.text + ": "; }
 
 // A step that fits whole numbers of times into the frame interval, below safety x bound.
 double automatic_step(const Scene& scene, double bound) {
@@ -42,7 +40,7 @@ void check_number_of_steps(const Scene& scene, const Preparation& p) {
       "error: the stable step is %.3g s, limited by %s; that makes %.3g steps to %.6g s, allowed: at most "
       "%.0e",
       p.stable_step, p.limited_by.c_str(), scene.time.end / p.dt, scene.time.end, most);
-  throw CaseError(place_of_step(scene) + text);
+  throw CaseError(place_of(scene.time.source) + text);
 }
 
 void check_step(const Scene& scene, const Preparation& p) {
@@ -55,7 +53,7 @@ void check_step(const Scene& scene, const Preparation& p) {
       "error: time.step_s = %.6g s is above the stable step, limited by %s; the largest step that works is "
       "%.4g s (or time.step_s = \"auto\", or time.allow_unstable = true)",
       p.dt, p.limited_by.c_str(), std::floor(p.stable_step / digits) * digits);
-  throw CaseError(place_of_step(scene) + text);
+  throw CaseError(place_of(scene.time.source) + text);
 }
 
 // At half of what is stable errors stay those of 1, and mostly energy residuals do (bench/study); more than 8
@@ -75,7 +73,7 @@ int joint_steps_of(const Scene& scene, const Model& model, double dt, double sta
                 "error: time.joint_steps = %d is more than sliding threads allow with a step of %.6g s; the "
                 "largest that works is %d (or time.joint_steps = \"auto\", or time.allow_unstable = true)",
                 given, dt, most);
-  throw CaseError(place_of_step(scene) + text);
+  throw CaseError(place_of(scene.time.joint_steps_source) + text);
 }
 
 }  // namespace

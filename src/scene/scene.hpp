@@ -193,6 +193,7 @@ struct TimeSpec {
   double speed_limit = 1e5;      ///< m/s, a faster node stops the run
   double residual_limit = 0.05;  ///< of the energy ledger, relative; a greater one stops the run
   SourceRef source;              ///< of time.step_s where given, else of [time]
+  SourceRef joint_steps_source;  ///< the same of time.joint_steps
 };
 
 struct OutputSpec {
