@@ -20,8 +20,6 @@ namespace {
 
 constexpr std::size_t at(Index i) { return static_cast<std::size_t>(i); }
 
-constexpr double void_length = 1e300;  // rest length of a lane without element: never taut
-
 StrippedPrograms choose() {
   StrippedPrograms programs{};
   [[maybe_unused]] const std::string isa = kernels().isa;
@@ -60,18 +58,30 @@ StrippedNet::StrippedNet(const Features& has)
       work_(reduce_forces(model_.topology, Numbering::all(model_.nodes), {})) {
   if (!work_.links.empty() || !work_.kicks.empty())
     throw Error(ExitCode::internal, "error: the stripped programs know no links");
-  set_parameters();
   const double dt = start_.preparation().dt;
+  palette_ = make_palette(model_, model_.topology, Give(model_, dt));
   for (Index i = 0; i < model_.nodes; ++i) scale_.push_back(dt / model_.mass[at(i)]);
   for (auto& f : force_) f.assign(at(work_.force_count), 0.0);
-  damper_.assign(parameter_.size() * kernel::lanes, 0.0);
+  damper_.assign(palette_.of_group.size() * kernel::lanes, 0.0);
   for (const Block& b : work_.blocks)
     blocks_.push_back({b.patch_begin, b.patch_end, b.span_begin, b.span_end, b.stretch_begin, b.stretch_end});
   State& s = state_;
-  scene_.axial = {s.x.data(),       s.y.data(),       s.z.data(),        s.vx.data(),
-                  s.vy.data(),      s.vz.data(),      parameter_.data(), palette_.data(),
-                  force_[0].data(), force_[1].data(), force_[2].data(),  s.dissipated.data(),
-                  damper_.data(),   nullptr,          nullptr,           dt};
+  scene_.axial = {s.x.data(),
+                  s.y.data(),
+                  s.z.data(),
+                  s.vx.data(),
+                  s.vy.data(),
+                  s.vz.data(),
+                  palette_.of_group.data(),
+                  palette_.rows.data(),
+                  force_[0].data(),
+                  force_[1].data(),
+                  force_[2].data(),
+                  s.dissipated.data(),
+                  damper_.data(),
+                  nullptr,
+                  nullptr,
+                  dt};
   const Vec3 g = dt * model_.gravity;
   scene_.node = {
       s.x.data(),    s.y.data(),       s.z.data(),       s.vx.data(),      s.vy.data(),           s.vz.data(),
@@ -80,26 +90,6 @@ StrippedNet::StrippedNet(const Features& has)
   scene_.patches = work_.patches.data(), scene_.spans = work_.spans.data();
   scene_.stretches = work_.stretches.data();
   advance_ = stripped_programs().advance[has.damping][has.ledger][has.gravity];
-}
-
-// All elements are alike, so a group's row of the palette tells only which lanes are void: 256 rows.
-void StrippedNet::set_parameters() {
-  for (Index row = 0; row < 1 << kernel::lanes; ++row)
-    for (int parameter = 0; parameter < 3; ++parameter)
-      for (Index lane = 0; lane < kernel::lanes; ++lane) {
-        const bool there = (row >> lane & 1) != 0;
-        const double value[] = {model_.stiffness[0], model_.damping[0], model_.rest_length[0]};
-        palette_.push_back(there ? value[parameter] : parameter == 2 ? void_length : 0.0);
-      }
-  for (const Run& run : model_.topology.runs)
-    for (Index g = 0; g < group_count(run); ++g) {
-      Index row = 0;
-      for (Index lane = 0; lane < kernel::lanes; ++lane) {
-        const Index k = first_group_node(run) + g * kernel::lanes + lane - run.a;
-        if (k >= 0 && k < run.count && model_.topology.slot_element[at(run.slot + k)] >= 0) row |= 1 << lane;
-      }
-      parameter_.push_back(row);
-    }
 }
 
 }  // namespace bench

@@ -31,15 +31,13 @@ class StrippedNet {
   const State& state() const { return state_; }
 
  private:
-  void set_parameters();
-
   Simulation start_;  ///< owns the model
   const Model& model_;
   State state_;
   ForceReduction work_;
   std::vector<StrippedBlock> blocks_;
-  AlignedVector<double> palette_, scale_, force_[3], damper_;
-  std::vector<Index> parameter_;
+  Palette palette_;
+  AlignedVector<double> scale_, force_[3], damper_;
   StrippedScene scene_{};
   void (*advance_)(const StrippedScene&, std::int64_t) = nullptr;
 };

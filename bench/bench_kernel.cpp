@@ -26,7 +26,7 @@ struct Chain {
     for (std::size_t i = 0; i < nodes; ++i) fields[0][i] = 1.01 * 0.005 * static_cast<double>(i);
     scale.assign(nodes, 1e-6 / 1.5e-5);
     parameter.assign(static_cast<std::size_t>(count / lanes), 0);
-    for (const double value : {6.28e5, 0.655, 0.005}) palette.insert(palette.end(), lanes, value);
+    for (const double value : {6.28e5, 0.655, 0.005, 1.3e-13}) palette.insert(palette.end(), lanes, value);
     damper.assign(static_cast<std::size_t>(count), 0.0);
     booked.assign(static_cast<std::size_t>(count / kernel::grain + 1) * lanes, 0.0);
   }

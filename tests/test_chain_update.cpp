@@ -42,6 +42,7 @@ struct Chain {
       for (Index lane = 0; lane < lanes; ++lane) palette.push_back(damped ? draw(0.1, 1) : 0);
       for (Index lane = 0; lane < lanes; ++lane)
         palette.push_back(row == 3 && lane == 5 ? 1e300 : draw(0.0049, 0.00503));
+      for (Index lane = 0; lane < lanes; ++lane) palette.push_back(draw(0, 2e-6));
     }
     for (Index g = 0; g < groups; ++g) parameter.push_back(static_cast<Index>(random() % 4));
     for (Index i = 0; i < 4 * lanes; ++i) booked.push_back(draw(0, 1));
@@ -89,11 +90,11 @@ int compute(Chain& c, bool ledger) {
   const kernel::AxialArguments g = c.axial();
   for (Index k = 0; k < nodes; ++k) {
     const Index group = k / lanes, lane = k % lanes;
-    const double* const row = g.palette + 3 * lanes * g.parameter[group] + lane;
+    const double* const row = g.palette + kernel::palette_fields * lanes * g.parameter[group] + lane;
     const plain::V3 r{g.x[k + 1] - g.x[k], g.y[k + 1] - g.y[k], g.z[k + 1] - g.z[k]};
     const plain::V3 v{g.vx[k + 1] - g.vx[k], g.vy[k + 1] - g.vy[k], g.vz[k + 1] - g.vz[k]};
     const plain::Axial item =
-        plain::axial_law(dot(r, r), dot(r, v), row[0], row[lanes], row[2 * lanes], g.dt);
+        plain::axial_law(dot(r, r), dot(r, v), row[0], row[lanes], row[2 * lanes], g.dt, row[3 * lanes]);
     g.fx[Chain::plus + k] = item.per_length * r.x;
     g.fy[Chain::plus + k] = item.per_length * r.y;
     g.fz[Chain::plus + k] = item.per_length * r.z;

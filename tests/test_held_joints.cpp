@@ -139,9 +139,14 @@ TEST(HeldJoints, AutomaticallyOnlyWhereAnotherPartLimitsTheStep) {
   EXPECT_GT(steps_held(closing_net(12)), 2);
   EXPECT_LE(steps_held(closing_net(2)), 8);
   EXPECT_LT(steps_held(closing_net(26)), steps_held(closing_net(12)));
-  Scene fine = closing_net(12);
-  fine.time.safety = 0.2;
-  EXPECT_EQ(steps_held(fine), steps_held(closing_net(12))) << "shorter steps, shorter holds";
+  const auto held_at = [](double safety) {
+    Scene scene = closing_net(12);
+    scene.time.safety = safety;
+    return steps_held(scene);
+  };
+  EXPECT_EQ(held_at(0.8), held_at(1));
+  EXPECT_EQ(held_at(0.4), held_at(0.8) / 2) << "the time goes with the square of the step";
+  EXPECT_EQ(held_at(0.2), 1);
   Scene contact = closing_net(12);
   for (Ring& ring : contact.rings) ring.joint = RingJoint::contact;
   EXPECT_EQ(steps_held(contact), 1);

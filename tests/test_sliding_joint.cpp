@@ -174,13 +174,14 @@ struct Bench {  // a thread with rings, in arrays of its own
     std::vector<double> scratch(joints.size() * kernel::sliding_scratch);
     on_threads.resize(4 * joints.size());
     on_hosts.resize(4 * joints.size());
+    const std::vector<double> mobility(nodes.size(), 0.0);  // heavy: elements turn taut at a constant rate
     const kernel::ContactArguments contact{x[0].data(), x[1].data(), x[2].data(), v[0].data(),
                                            v[1].data(), v[2].data(), nullptr,     0,
                                            0,           dt,          1e-6};
     kernel::SlidingLoads counts{};
-    const kernel::SlidingArguments all{contact,      ahead,   dt > 0 ? dt : 1, nodes.data(),
-                                       &thread,      1,       joints.data(),   states.data(),
-                                       books.data(), &counts, scratch.data()};
+    const kernel::SlidingArguments all{
+        contact, ahead,         dt > 0 ? dt : 1, nodes.data(), mobility.data(), &thread,
+        1,       joints.data(), states.data(),   books.data(), &counts,         scratch.data()};
     kernels().sliding_joints(all, on_threads.data(), on_hosts.data());
     on_threads.resize(at(counts.threads));
     on_hosts.resize(at(counts.hosts) + 2 * joints.size());
@@ -192,7 +193,7 @@ struct Bench {  // a thread with rings, in arrays of its own
     const Vec3 r = place(nodes[at(e) + 1]) - place(nodes[at(e)]),
                w = velocity(nodes[at(e) + 1]) - velocity(nodes[at(e)]);
     return plain::axial_law(r.squaredNorm(), r.dot(w), thread.stiffness, thread.damping, thread.rest_length,
-                            1e-6);
+                            1e-6, 0);
   }
   double energy() {
     evaluate();
@@ -597,7 +598,7 @@ TEST(SlidingJoint, ALookBooksWhatTheNextStepWill) {
     EXPECT_NEAR(dissipated_by_dampers(sim.state(), dt), booked, 1e-14) << sim.time();
     greatest = std::max(greatest, dt * std::abs(due));
   }
-  EXPECT_GT(greatest, 1e-11) << "the joint must have taken some";
+  EXPECT_GT(greatest, 1e-12) << "the joint must have taken some";
 }
 
 // ---- rings on a net, several on each closing thread

@@ -109,7 +109,7 @@ TEST(PressedNet, HoldsHoweverItsContactsCount) {
 // ---- the matrix sees garbage
 
 TEST(Watch, SeesEnergyThatNobodyIsToldOf) {  // no limit of speed, no check of energy
-  const Outcome outcome = watch([] { return at_fraction(tense_chain(40, 0), 1.01); }, {2000, 20});
+  const Outcome outcome = watch([] { return at_fraction(tense_chain(40, 0), 1.05); }, {200, 20});
   EXPECT_EQ(words(outcome.verdict), "FAILED");
   EXPECT_NE(outcome.message.find("energy grew by "), std::string::npos) << outcome.message;
 }

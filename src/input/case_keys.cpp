@@ -56,10 +56,10 @@ const Section<TimeSpec>& time_section() {
            [](TimeSpec& time, const Value& value) { time.step = value.is_word ? 0 : value.number; }},
           {{.name = "safety",
             .range = above(0, 1),
-            .fallback = "0.5",
+            .fallback = "0.4",
             .meaning = "Automatic step over the stable step; at most 0.3 where a material has "
-                       "`damping_ratio` < 0.05, at most 0.2 below 0.01, at most 0.1 below 0.005.",
-            .source = "threads that turn slack and taut gain energy well below the linear bound if little "
+                       "`damping_ratio` < 0.05, at most 0.2 below 0.02, at most 0.1 below 0.005.",
+            .source = "threads that turn slack and taut change energy well below the linear bound if little "
                       "damps them"},
            into(&TimeSpec::safety)},
           {{.name = "joint_steps",

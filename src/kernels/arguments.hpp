@@ -22,11 +22,13 @@ struct Span {
   Index stretch;    ///< that takes the same nodes and whose first term this is, if step is 1; or -1
 };
 
+constexpr Index palette_fields = 4;  ///< of a row of the palette
+
 /// A single element.
 struct Link {
   Index a, b, force;
-  Index row;  ///< of the ledger, -1: booked elsewhere
-  double stiffness, damping, rest_length;
+  Index row;                                     ///< of the ledger, -1: booked elsewhere
+  double stiffness, damping, rest_length, give;  ///< as in the palette
 };
 
 /// Forces to copy [from, from + count) -> [to, ...), or from -1: to set to zero, before a block's elements.
@@ -45,9 +47,9 @@ struct Book {
 struct AxialArguments {
   const double *x, *y, *z, *vx, *vy, *vz;  ///< node: position, velocity half a step earlier
   const Index* parameter;                  ///< group: its row of the palette
-  const double* palette;                   ///< row x (k lanes, c lanes, l0 lanes): N/m, N s/m, m
-  double *fx, *fy, *fz;                    ///< force: on the element's end a (minus it acts on b), N
-  double* booked;                          ///< ledger row x lanes: damper power, W, or elastic energy, J
+  const double* palette;  ///< row x (k, c, l0, g of axial_law.hpp) x lanes: N/m, N s/m, m, m/N
+  double *fx, *fy, *fz;   ///< force: on the element's end a (minus it acts on b), N
+  double* booked;         ///< ledger row x lanes: damper power, W, or elastic energy, J
   // as long as power is booked:
   double* damper;       ///< group x lanes: the damper's force in the last step, N
   double* link_damper;  ///< link: the same
@@ -231,6 +233,7 @@ struct SlidingArguments {
   double ahead;              ///< s: nodes are taken where they will be then
   double since;              ///< s since the last evaluation in a step, from where that took nodes
   const Index* nodes;
+  const double* mobility;  ///< of those nodes: 1/m, 1/kg
   const SlidingThread* threads;
   Index thread_count;
   const Joint* joints;

@@ -78,7 +78,7 @@ void axial_links(const AxialArguments& g, const Link* links, Index begin, Index 
     const V3 r{g.x[l.b] - g.x[l.a], g.y[l.b] - g.y[l.a], g.z[l.b] - g.z[l.a]};
     const V3 v{g.vx[l.b] - g.vx[l.a], g.vy[l.b] - g.vy[l.a], g.vz[l.b] - g.vz[l.a]};
     const Axial item =
-        axial_law(dot(r, r), dot(r, v), l.stiffness, damped ? l.damping : 0.0, l.rest_length, g.dt);
+        axial_law(dot(r, r), dot(r, v), l.stiffness, damped ? l.damping : 0.0, l.rest_length, g.dt, l.give);
     g.fx[l.force] = item.per_length * r.x;
     g.fy[l.force] = item.per_length * r.y;
     g.fz[l.force] = item.per_length * r.z;

@@ -56,7 +56,8 @@ CINCH_INLINE Nodes nodes(const SpanView& s, std::ptrdiff_t i) {
 template <bool damped, Book::Sum book, bool chain>
 CINCH_INLINE void group(const SpanView& s, std::ptrdiff_t number, Sums& sums) {
   const std::ptrdiff_t i = number * lanes;
-  const double* const row = s.palette + 3 * lanes * static_cast<std::ptrdiff_t>(s.parameter[number]);
+  const double* const row =
+      s.palette + kernel::palette_fields * lanes * static_cast<std::ptrdiff_t>(s.parameter[number]);
   const Taut item = taut(relative(nodes(s, i), nodes(s, i + (chain ? 1 : s.step))), row);
   const Forces f = force<damped, with_power(book), book == Book::power>(
       item, row, _mm512_set1_pd(s.dt), with_power(book) ? s.damper + i : nullptr, sums.power);
@@ -84,7 +85,7 @@ struct GroupItems {
 template <bool damped, bool chain, bool switching>
 inline bool forces_of_group(const SpanView& s, std::ptrdiff_t number, GroupItems& items) {
   const double* __restrict const row =
-      s.palette + 3 * lanes * static_cast<std::ptrdiff_t>(s.parameter[number]);
+      s.palette + kernel::palette_fields * lanes * static_cast<std::ptrdiff_t>(s.parameter[number]);
   const std::ptrdiff_t first = number * lanes, step = chain ? 1 : s.step;
   double spare = 0;
 #pragma omp simd reduction(min : spare)
@@ -94,7 +95,7 @@ inline bool forces_of_group(const SpanView& s, std::ptrdiff_t number, GroupItems
     const double rr = rx * rx + ry * ry + rz * rz;
     const double rv = rx * (s.u[j] - s.u[i]) + ry * (s.v[j] - s.v[i]) + rz * (s.w[j] - s.w[i]);
     const Axial item = axial_law<switching>(rr, rv, row[lane], damped ? row[lanes + lane] : 0.0,
-                                            row[2 * lanes + lane], s.dt);
+                                            row[2 * lanes + lane], s.dt, row[3 * lanes + lane]);
     s.fx[i] = item.per_length * rx;
     s.fy[i] = item.per_length * ry;
     s.fz[i] = item.per_length * rz;

@@ -11,6 +11,7 @@
 #pragma GCC diagnostic pop
 
 #include "kernels/arguments.hpp"
+#include "kernels/axial_law.hpp"
 
 namespace cinch::CINCH_ISA {
 
@@ -53,26 +54,39 @@ CINCH_INLINE Taut taut(const Relative& r, const double* palette) {
   return {r.rx, r.ry, r.rz, r.rv, length - rest, _mm512_set1_pd(1.0) / length};
 }
 
+/// S of elements of which those in `switching` may turn taut or slack.
+CINCH_INLINE Group spring_at_switch(Group full, Group stretch, Group change, Group drag,
+                                    const double* palette, __mmask8 switching) {
+  alignas(64) double k[kernel::lanes], s[kernel::lanes], d[kernel::lanes], c[kernel::lanes],
+      spring[kernel::lanes];
+  store(k, load(palette)), store(s, stretch), store(d, change), store(c, drag), store(spring, full);
+  const double* const give = palette + 3 * kernel::lanes;
+  for (Index lane = 0; lane < kernel::lanes; ++lane)
+    if (switching >> lane & 1)
+      spring[lane] = spring_at_switch(k[lane], s[lane], d[lane], c[lane], give[lane]);
+  return load(spring);
+}
+
 /// The forces; with `power` adds that of the damper, whose last force stands at `damper`, to `sum`, and with
 /// `keep` puts this one there.
 template <bool damped, bool power, bool keep>
 CINCH_INLINE Forces force(const Taut& t, const double* palette, Group dt, double* damper, Group& sum) {
   const Group zero = _mm512_setzero_pd();
   const __mmask8 stretched = _mm512_cmp_pd_mask(t.stretch, zero, _CMP_GT_OQ);
-  const Group rate = t.rv * t.inverse, h = _mm512_abs_pd(rate) * dt;
+  const Group rate = t.rv * t.inverse, change = rate * dt;
   Group spring = load(palette) * t.stretch;
-  const __mmask8 switching = _mm512_mask_cmp_pd_mask(stretched, t.stretch, h, _CMP_LT_OQ);
+  const Group drag = damped ? _mm512_maskz_mul_pd(stretched, load(palette + kernel::lanes), rate) : zero;
+  Group tension = _mm512_max_pd(damped ? spring + drag : spring, zero);
+  const Group far = _mm512_set1_pd(1.25) * _mm512_abs_pd(change);
+  const __mmask8 switching = _mm512_mask_cmp_pd_mask(stretched, t.stretch, far, _CMP_LT_OQ);
   if (switching) [[unlikely]] {
-    const Group half = _mm512_set1_pd(0.5), one = _mm512_set1_pd(1.0);
-    spring = _mm512_mask_mul_pd(spring, switching, spring, half * (one + t.stretch / h));
+    spring = spring_at_switch(spring, t.stretch, change, drag, palette, switching);
+    tension = _mm512_max_pd(spring + drag, zero);
   }
-  Group pull = spring;
-  if (damped) pull = spring + _mm512_maskz_mul_pd(stretched, load(palette + kernel::lanes), rate);
-  const Group tension = _mm512_max_pd(pull, zero);
   if (power) {
-    const Group drag = tension - spring;
-    sum += _mm512_set1_pd(0.5) * (drag + load(damper)) * rate;
-    if (keep) store(damper, drag);
+    const Group taken = tension - spring;  // the damper's force
+    sum += _mm512_set1_pd(0.5) * (taken + load(damper)) * rate;
+    if (keep) store(damper, taken);
   }
   const Group per_length = tension * t.inverse;
   return {per_length * t.rx, per_length * t.ry, per_length * t.rz};

@@ -3,14 +3,21 @@
 // Positive T pulls the ends together. The damper's force is T - S, and its power (T - S) dl/dt is what the
 // element dissipates.
 //
-// Central differences change the energy where an element turns taut or slack within a step. From l0 + s - h
-// to l0 + s at the rate h/dt, half of each end's force does the work (0 + k s) h/2, but k s^2/2 is stored: k
-// s (h - s)/2 is lost whenever an element turns taut, and won whenever it turns slack. Damped threads turn
-// slack more slowly than taut and lose, undamped ones blow up far below the linear bound. Where s < h the
-// spring therefore pulls with
-//   S = k s (1 + s/h)/2,   h = |dl/dt| dt.
-// Both steps beside it then do the work S h in place of k s h, which makes up for that: at a constant rate no
-// energy is lost or won. S is continuous, and k s for smaller steps.
+// Central differences change the energy where an element turns taut or slack within a step. With the change d
+// of the length in the step before and d' in the one after, half of each end's force does the work S d/2 and
+// S d'/2 beside the steps' other ends. Where the element was slack (s < d), and is taut after, this stores
+// what k s (stretch s) should if
+//   S (d + d') = k s (s + d'),
+// and where it will be slack (s < -d'), and was taut, if
+//   S (-d - d') = k s (s - d).
+// With S = k s instead, k s (d - s)/2 is lost whenever an element turns taut and won whenever it turns slack
+// at a constant rate: damped threads turn slack more slowly than taut and lose, undamped ones blow up far
+// below the linear bound. The pull itself changes the rate,
+//   d' = d - g T,   g = dt^2 (1/m_a + 1/m_b),
+// where nothing else does. For an element alone the rule is exact then; in a net what is left falls with the
+// third power of dt or faster, with d' = d it falls with the second (bench/README.md). Neighbours that hold
+// against the pull of a taut element make it a bad guess: only those within 5/4 steps from slack, s < 5/4
+// |d|, are taken to turn slack.
 #pragma once
 #include "kernels/vec.hpp"
 
@@ -22,30 +29,55 @@ struct Axial {
   double rate;        ///< dl/dt, m/s; of a slack element l/l0 times that
   double damper;      ///< T - S, N
   double energy;      ///< stored, J
-  double spare;       ///< s - h of a taut element, m: below zero it turns taut or slack about now
+  double spare;       ///< of a taut element, m: below zero it turns taut or slack about now
 };
 
-/// S for the stretch s >= 0; h as above. Where s >= h it is k s to the last bit: no branch is needed.
-inline double spring_at_switch(double k, double stretch, double h) {
-  const double longer = h > stretch ? h : stretch;
-  return k * stretch * (0.5 * (1.0 + stretch / (longer > 0 ? longer : 1.0)));
+/// S of an element that was slack, s < d. The smaller root of g k q^2 - b q + c = 0 for q = S/k, between 0
+/// and s; none above 0: the damper alone turns it slack again.
+inline double spring_turning_taut(double k, double stretch, double change, double drag, double give) {
+  const double lost = give * drag, yield = give * k;
+  const double b = 2 * change - lost + yield * stretch, c = stretch * (stretch + change - lost);
+  const double square = b * b - 4 * yield * c;
+  const double root = std::sqrt(square > 0 ? square : 0.0);
+  return c > 0 ? k * (2 * c / (b + root)) : 0.0;
 }
 
-/// One element from r . r and r . v, r its ends' relative position and v their velocity, in steps of dt.
-/// Where `switching` is false, S = k s. Takes and gives plain numbers, as loops over small structs are not
-/// vectorised by every compiler.
+/// S of an element that will be slack, s < -d'. The positive root of g k q^2 + b q = c for q = S/k, free of
+/// cancellation; without tension d' = d, and -d' counts no further than to 5/4 |d|.
+inline double spring_turning_slack(double k, double stretch, double change, double drag, double give) {
+  const double yield = give * k, b = give * drag - 2 * change, c = stretch * (stretch - change);
+  const double root = std::sqrt(b * b + 4 * yield * c);
+  const double spring = k * ((b > 0 ? 2 * c : root - b) / (b > 0 ? b + root : 2 * yield));
+  const double least = k * (c / (1.25 * std::fabs(change) - change)), loose = k * (c / (-2 * change));
+  return spring + drag > 0 ? (spring > least ? spring : least) : loose;
+}
+
+/// S for the stretch s >= 0, the change of length d in the step before, the damper's pull c dl/dt and g.
+/// Where the element turns neither taut nor slack it is k s to the last bit: no branch is needed.
+inline double spring_at_switch(double k, double stretch, double change, double drag, double give) {
+  const double full = k * stretch, pull = full + drag > 0 ? full + drag : 0.0;
+  const double shrinks = give * pull - change, most = 1.25 * std::fabs(change);
+  const double taut = spring_turning_taut(k, stretch, change, drag, give);
+  const double slack = spring_turning_slack(k, stretch, change, drag, give);
+  return stretch < change ? taut : stretch < (shrinks < most ? shrinks : most) ? slack : full;
+}
+
+/// One element from r . r and r . v, r its ends' relative position and v their velocity, in steps of dt; g as
+/// above, m/N. Where `switching` is false, S = k s. Takes and gives plain numbers, as loops over small
+/// structs are not vectorised by every compiler.
 template <bool switching = true>
-inline Axial axial_law(double rr, double rv, double k, double c, double l0, double dt) {
+inline Axial axial_law(double rr, double rv, double k, double c, double l0, double dt, double give) {
   const double length = std::sqrt(rr);
   const double taut = length > l0 ? length : l0;  // a slack element may have length zero, l0 is none
   const double inverse = 1.0 / taut;
   const double stretch = taut - l0;
-  const double rate = rv * inverse, h = std::fabs(rate) * dt;
-  const double spare = stretch > 0 ? stretch - h : 0.0;
-  const double spring = switching ? spring_at_switch(k, stretch, h) : k * stretch;
-  const double pull = spring + (stretch > 0 ? c * rate : 0.0);
+  const double rate = rv * inverse, change = rate * dt;
+  const double full = k * stretch, drag = stretch > 0 ? c * rate : 0.0;
+  const double spare = stretch > 0 ? stretch - 1.25 * std::fabs(change) : 0.0;
+  const double spring = switching && stretch > 0 ? spring_at_switch(k, stretch, change, drag, give) : full;
+  const double pull = spring + drag;
   const double tension = pull > 0 ? pull : 0.0;
-  return {tension, tension * inverse, rate, tension - spring, 0.5 * k * stretch * stretch, spare};
+  return {tension, tension * inverse, rate, tension - spring, 0.5 * full * stretch, spare};
 }
 
 }  // namespace cinch::CINCH_ISA

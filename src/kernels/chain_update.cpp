@@ -48,7 +48,7 @@ struct Chain {
     return {load(x + i), load(y + i), load(z + i), load(u + i), load(v + i), load(w + i)};
   }
   CINCH_INLINE const double* row(std::ptrdiff_t group) const {
-    return palette + 3 * lanes * static_cast<std::ptrdiff_t>(parameter[group]);
+    return palette + kernel::palette_fields * lanes * static_cast<std::ptrdiff_t>(parameter[group]);
   }
 };
 

@@ -99,6 +99,11 @@ struct Slide {
 
   JointState& state(Index j) const { return g.states[j]; }
   Index node(Index k) const { return g.nodes[thread.node_begin + k]; }
+  // g of axial_law.hpp for element k, straight and for a step between two evaluations.
+  double give(Index k) const {
+    const double* const ends = g.mobility + thread.node_begin + k;
+    return g.contact.step * g.contact.step * (ends[0] + ends[1]);
+  }
   V3 place(Index k) const { return place_ahead(g, node(k)); }
   V3 speed(Index k) const { return at(g.contact.vx, g.contact.vy, g.contact.vz, node(k)); }
   V3 waypoint(Index j) const { return work[j].host.opening.center + vec(state(j).offset); }
@@ -189,11 +194,12 @@ inline double round_of_waypoints(const Slide& s, const Group& group, V3 a, V3 b)
   return change;
 }
 
-// Waypoint after waypoint: each round shortens a function that is convex in all of them. A waypoint wrong by
-// e makes the length wrong by e^2 over that of a leg.
+// Waypoint after waypoint: each round shortens a function that is convex in all of them. A waypoint that
+// stays behind by e makes the length wrong by e^2 over that of a leg, but forces by e: they act like
+// friction.
 inline void find_waypoints(const Slide& s, const Group& group, V3 a, V3 b) {
   constexpr int most_rounds = 1000;  // a dozen do, but where rings lie at one place at first
-  const double close = 1e-4 * s.work[group.first].host.opening.radius;
+  const double close = 1e-5 * s.work[group.first].host.opening.radius;
   for (int i = 0; i < most_rounds; ++i)
     if (round_of_waypoints(s, group, a, b) <= close * close) break;
 }
@@ -361,13 +367,12 @@ struct Pull {
   double tension = 0, damper = 0, rate = 0;  // N, N, m/s
   double energy = 0, storing = 0;            // J; W, of the energy
 
-  Pull(const Slide& s, double length, double length_rate) : rate(length_rate) {
-    const double stretch = s.stretch(length), h = std::fabs(rate) * s.g.contact.step;
+  Pull(const Slide& s, double length, double length_rate, double give) : rate(length_rate) {
+    const double stretch = s.stretch(length);
     if (!(stretch > 0)) return;
-    const double full = s.thread.stiffness * stretch;
-    const double spring = stretch < h ? spring_at_switch(s.thread.stiffness, stretch, h) : full;
-    const double pull = spring + s.thread.damping * rate;
-    tension = pull > 0 ? pull : 0.0;
+    const double full = s.thread.stiffness * stretch, drag = s.thread.damping * rate;
+    const double spring = spring_at_switch(s.thread.stiffness, stretch, rate * s.g.contact.step, drag, give);
+    tension = spring + drag > 0 ? spring + drag : 0.0;
     damper = tension - spring;
     energy = 0.5 * full * stretch;
     storing = full * rate;
@@ -450,7 +455,8 @@ inline void load_ring(const Slide& s, Index j, V3 force, SlidingWriter& out) {
 inline Pulls pulls_of(const Slide& s, const Group& group) {
   Way& way = s.work[group.first].way;
   const double rate = dot(way.direct.unit, s.speed(group.element + 1) - s.speed(group.element));
-  const Pulls pulls{Pull(s, way.length, length_rate(s, group)), Pull(s, way.direct.length, rate)};
+  const double give = s.give(group.element);  // what rings change of it gains nothing (bench/README.md)
+  const Pulls pulls{Pull(s, way.length, length_rate(s, group), 0), Pull(s, way.direct.length, rate, give)};
   way.damper = pulls.with.damper, way.direct_damper = pulls.without.damper;
   return pulls;
 }

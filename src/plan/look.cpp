@@ -51,6 +51,7 @@ double couple_work(const State& state) {
 }
 
 void Look::take(Stepper& stepper, State& state, const Assembly& assembly, bool half_step) {
+  if (model_ != &stepper.model() || !give_) give_.emplace(stepper.model(), stepper.plan().dt);
   model_ = &stepper.model();
   state_ = &state;
   assembly_ = &assembly;
@@ -149,8 +150,9 @@ Look::Pull Look::pull(Index element) const {
   const Vec3 r = position(b) - position(a);
   const plain::V3 along = plain_vector(r), moving = plain_vector(speed(b) - speed(a));
   const double rest = model_->rest_length[e];
-  const plain::Axial item = plain::axial_law(plain::dot(along, along), plain::dot(along, moving),
-                                             model_->stiffness[e], model_->damping[e], rest, dt_);
+  const plain::Axial item =
+      plain::axial_law(plain::dot(along, along), plain::dot(along, moving), model_->stiffness[e],
+                       model_->damping[e], rest, dt_, (*give_)(e));
   return {item.tension, (r.norm() - rest) / rest};
 }
 

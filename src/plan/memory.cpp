@@ -68,7 +68,7 @@ std::size_t Piece::memory() const {
   std::size_t sum =
       numbering_.memory() + contacts_.memory() + joints_.memory() +
       bytes_of(topology_.runs, topology_.slot_element, topology_.links, r.blocks, r.patches, r.spans, r.links,
-               r.stretches, r.kicks, scale_, share_, damper_, link_damper_, palette_, parameter_);
+               r.stretches, r.kicks, scale_, share_, damper_, link_damper_, palette_.rows, palette_.of_group);
   for (const auto& field : own_fields_) sum += bytes_of(field);
   for (const auto& field : force_) sum += bytes_of(field);
   for (const auto& field : glance_fields_) sum += bytes_of(field);

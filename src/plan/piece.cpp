@@ -1,9 +1,6 @@
 #include "plan/piece.hpp"
 
 #include <algorithm>
-#include <cstring>
-#include <string>
-#include <unordered_map>
 #include <utility>
 
 #include "store/fields.hpp"
@@ -13,13 +10,8 @@ namespace {
 
 constexpr std::size_t at(Index i) { return static_cast<std::size_t>(i); }
 
-constexpr double void_length = 1e300;   ///< rest length of a lane without element: never taut
 constexpr int sweep_levels = 4;         ///< steps in one sweep over a scene too large for the cache
 constexpr Index nodes_in_cache = 8000;  ///< 56 bytes each: half of a second-level cache
-
-struct PaletteRow {
-  double stiffness[kernel::lanes], damping[kernel::lanes], rest_length[kernel::lanes];
-};
 
 // The first block whose nodes all lie behind what the elements of block b reach, less b; at most.
 std::size_t reach_in_blocks(const std::vector<Index>& edges, Index reach) {
@@ -74,34 +66,14 @@ void Piece::set_constraints(const Model& model) {
   reactions_.resize(constraints_.size());
 }
 
-// The rows of the palette that differ, and which of them each group has: of most groups it is the same.
 void Piece::set_parameters(const Model& model) {
-  std::unordered_map<std::string, Index> rows;  // by their bytes
-  PaletteRow row;
-  std::string bytes(sizeof row, '\0');
-  for (const Run& run : topology_.runs)
-    for (Index g = 0; g < group_count(run); ++g) {
-      for (Index lane = 0; lane < kernel::lanes; ++lane) {
-        const Index k = first_group_node(run) + g * kernel::lanes + lane - run.a;
-        const Index e = k >= 0 && k < run.count ? topology_.slot_element[at(run.slot + k)] : -1;
-        row.stiffness[lane] = e >= 0 ? model.stiffness[at(e)] : 0;
-        row.damping[lane] = e >= 0 ? model.damping[at(e)] : 0;
-        row.rest_length[lane] = e >= 0 ? model.rest_length[at(e)] : void_length;
-      }
-      std::memcpy(bytes.data(), &row, sizeof row);
-      const auto [found, fresh] = rows.try_emplace(bytes, static_cast<Index>(rows.size()));
-      if (fresh) {
-        palette_.insert(palette_.end(), row.stiffness, row.stiffness + kernel::lanes);
-        palette_.insert(palette_.end(), row.damping, row.damping + kernel::lanes);
-        palette_.insert(palette_.end(), row.rest_length, row.rest_length + kernel::lanes);
-      }
-      parameter_.push_back(found->second);
-    }
+  const Give give(model, plan_.dt);
+  palette_ = make_palette(model, topology_, give);
   for (std::size_t i = 0; i < topology_.links.size(); ++i) {
     const auto e = at(topology_.links[i].element);
     kernel::Link& link = reduction_.links[i];
-    link.stiffness = model.stiffness[e], link.damping = model.damping[e],
-    link.rest_length = model.rest_length[e];
+    link.stiffness = model.stiffness[e], link.damping = model.damping[e];
+    link.rest_length = model.rest_length[e], link.give = give(e);
   }
 }
 
@@ -112,7 +84,7 @@ void Piece::allocate(const Model& model, const std::vector<double>& node_share) 
     if (numbering_.moved(static_cast<Index>(i))) scale_[i] = plan_.dt / model.mass[at(numbering_.global[i])];
   for (auto& f : force_) f.assign(at(reduction_.force_count) * at(levels_), 0.0);
   if (step_book() == kernel::Book::power) {
-    damper_.assign(parameter_.size() * kernel::lanes, 0.0);
+    damper_.assign(palette_.of_group.size() * kernel::lanes, 0.0);
     link_damper_.assign(reduction_.links.size(), 0.0);
   }
   ledger_size_ = at(model.ledger_rows() * kernel::lanes);
@@ -232,10 +204,22 @@ void Piece::give(State& state) const {
 }
 
 void Piece::bind(State& state) {
-  axial_ = {fields_[0],       fields_[1],          fields_[2],        fields_[3],
-            fields_[4],       fields_[5],          parameter_.data(), palette_.data(),
-            force_[0].data(), force_[1].data(),    force_[2].data(),  state.dissipated.data(),
-            damper_.data(),   link_damper_.data(), nullptr,           plan_.dt};
+  axial_ = {fields_[0],
+            fields_[1],
+            fields_[2],
+            fields_[3],
+            fields_[4],
+            fields_[5],
+            palette_.of_group.data(),
+            palette_.rows.data(),
+            force_[0].data(),
+            force_[1].data(),
+            force_[2].data(),
+            state.dissipated.data(),
+            damper_.data(),
+            link_damper_.data(),
+            nullptr,
+            plan_.dt};
   const Vec3 g = plan_.dt * plan_.gravity_acceleration;
   node_ = {fields_[0],
            fields_[1],

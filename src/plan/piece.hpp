@@ -5,6 +5,7 @@
 #pragma once
 #include "plan/glance.hpp"
 #include "plan/near_contacts.hpp"
+#include "plan/palette.hpp"
 #include "plan/sliding_joints.hpp"
 #include "plan/stage_clock.hpp"
 #include "store/force_reduction.hpp"
@@ -102,8 +103,7 @@ class Piece {
   AlignedVector<double> own_fields_[6];  ///< of a piece that is not whole
   double* fields_[6] = {};
   AlignedVector<double> scale_, share_;  ///< node
-  AlignedVector<double> palette_;        ///< row x (k, c, l0) x lanes: see AxialArguments
-  std::vector<Index> parameter_;         ///< group, in the order of the runs: its row
+  Palette palette_;                      ///< of the topology's groups
   AlignedVector<double> force_[3];       ///< level x force
   AlignedVector<double> damper_;         ///< group x lanes: the damper's force in the last step, N
   AlignedVector<double> link_damper_;    ///< link: the same

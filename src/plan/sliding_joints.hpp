@@ -51,7 +51,7 @@ class SlidingJoints {
     kernel::SlidingLoads& count;
   };
   Held held_of(State& state, std::size_t thread) const;
-  void add_thread(const Model& model, std::size_t thread, bool booked);
+  void add_thread(const Model& model, const std::vector<double>& mobility, std::size_t thread, bool booked);
   kernel::SlidingArguments arguments(const NodeView& nodes, const StepPlan& plan, double time,
                                      double booked_dt, double ahead, double since);
   void make_room(const Model& model);
@@ -61,6 +61,7 @@ class SlidingJoints {
   const KernelTable* kernels_ = &kernels();
   std::vector<kernel::SlidingThread> threads_;
   std::vector<Index> nodes_;
+  std::vector<double> mobility_;  ///< of those nodes, 1/kg
   std::vector<kernel::Joint> joints_;
   std::vector<Index> number_;                        ///< joint: its number in the scene
   std::vector<Index> scene_thread_;                  ///< thread: its number in the scene

@@ -9,16 +9,6 @@ namespace {
 
 constexpr std::size_t at(Index i) { return static_cast<std::size_t>(i); }
 
-// Inverse masses with zero at fixed nodes.
-std::vector<double> mobility(const Model& model) {
-  std::vector<double> inverse;
-  inverse.reserve(model.mass.size());
-  for (const double mass : model.mass) inverse.push_back(1 / mass);
-  for (const kernel::Constraint& c : model.constraints)
-    if (c.ax == 0 && c.ay == 0 && c.az == 0) inverse[at(c.node)] = 0;
-  return inverse;
-}
-
 // Calls visit(node, weight) for what ring of a joint moves: weight bounds how fast the thread's length
 // changes with the node's place. Half of at most 2 goes to each end of a host, and its turn adds at most 2 c
 // / L.

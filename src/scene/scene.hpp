@@ -67,7 +67,7 @@ struct Thread {
   std::string name;
   std::string material;
   double diameter = 0;  ///< m
-  int elements = 12;
+  int elements = 8;
   std::vector<Vec3> points;        ///< polyline, m (empty when `along` is used)
   std::vector<std::string> along;  ///< closing thread: edges and mechanisms it is laid along, in order
   double overhang_start = 0;       ///< m, straight continuation before the first part of `along`
@@ -187,7 +187,7 @@ struct Closing {
 struct TimeSpec {
   double end = 0;                ///< s
   double step = 0;               ///< s; 0: automatic
-  double safety = 0.5;           ///< automatic step over the stable bound
+  double safety = 0.4;           ///< automatic step over the stable bound
   int joint_steps = 0;           ///< steps for which forces of sliding joints hold; 0: automatic
   bool allow_unstable = false;   ///< accept a step above the bound
   double speed_limit = 1e5;      ///< m/s, a faster node stops the run

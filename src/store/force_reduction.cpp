@@ -237,7 +237,7 @@ class Builder {
     const LinkEnds& ends = topology_.links[at(number)];
     const Index force = first_link_ + number;
     const Index row = numbering_.own(ends.a) ? numbering_.global[at(ends.a)] / kernel::grain : -1;
-    out_.links.push_back({ends.a, ends.b, force, row, 0, 0, 0});
+    out_.links.push_back({ends.a, ends.b, force, row, 0, 0, 0, 0});
     for (const auto& [node, sign] : {std::pair{ends.a, 1.0}, {ends.b, -1.0}})
       if (numbering_.moved(node)) link_kicks_.emplace(node, kernel::Kick{node, force, sign});
   }

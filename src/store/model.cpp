@@ -200,4 +200,13 @@ Model build_model(const Assembly& assembly, const Scene& scene, Stage stage) {
   return model;
 }
 
+std::vector<double> mobility(const Model& model) {
+  std::vector<double> inverse;
+  inverse.reserve(model.mass.size());
+  for (const double mass : model.mass) inverse.push_back(1 / mass);
+  for (const kernel::Constraint& c : model.constraints)
+    if (c.ax == 0 && c.ay == 0 && c.az == 0) inverse[at(c.node)] = 0;
+  return inverse;
+}
+
 }  // namespace cinch

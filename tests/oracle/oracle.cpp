@@ -225,6 +225,33 @@ void Oracle::add_gravity(const Motion& m, Evaluation& sum) const {
   }
 }
 
+double Oracle::mobility(Index node) const {
+  return at(assembly_.nodes, node).support == Support::fixed ? 0.0 : 1 / mass(node);
+}
+
+/// The spring's force with which one step to the left and one to the right store what the spring has: the
+/// length grew by `before` in the last step, and grows in the next one by what is left after the pull.
+double Oracle::spring_force(Index element, double stretch, double before, double drag) const {
+  const AssemblyElement& e = at(assembly_.elements, element);
+  const double full = e.stiffness * stretch;
+  const auto after = [&](double spring) {
+    return before - dt_ * dt_ * (mobility(e.a) + mobility(e.b)) * std::max(0.0, spring + drag);
+  };
+  const double furthest = -1.25 * std::abs(before);  // that it can go back in a step
+  const bool was_slack = stretch < before;
+  const bool will_be_slack = stretch + std::max(after(full), furthest) < 0;
+  if (!was_slack && !will_be_slack) return full;
+  // work of both half steps less what they ought to store; grows with the spring's force
+  const auto excess = [&](double spring) {
+    return was_slack ? spring * (before + after(spring)) - full * (stretch + after(spring))
+                     : -spring * (before + std::max(after(spring), furthest)) - full * (stretch - before);
+  };
+  if (excess(0) >= 0) return 0;
+  double low = 0, high = full;
+  for (int i = 0; i < 100; ++i) (excess(0.5 * (low + high)) < 0 ? low : high) = 0.5 * (low + high);
+  return high;
+}
+
 /// Spring and damper in parallel, tension only.
 void Oracle::add_element(Index i, const Motion& m, Evaluation& sum) const {
   const AssemblyElement& e = at(assembly_.elements, i);
@@ -233,11 +260,8 @@ void Oracle::add_element(Index i, const Motion& m, Evaluation& sum) const {
   const double rate = along.dot(at(m.v, e.b) - at(m.v, e.a)) / std::max(length, e.rest_length);
   at(sum.rate, i) = rate;
   if (!(stretch > 0)) return;
-  const double step = std::abs(rate) * dt_;  // what the element grows or shrinks by in a step
-  // a step that makes it taut or slack stores only what it does while taut
-  const double taut_share = stretch < step ? stretch / step : 1.0;
-  const double spring = e.stiffness * stretch * (1 + taut_share) / 2;
-  const double tension = std::max(0.0, spring + e.damping * rate);
+  const double drag = e.damping * rate, spring = spring_force(i, stretch, rate * dt_, drag);
+  const double tension = std::max(0.0, spring + drag);
   at(sum.force, e.a) += tension / length * along;
   at(sum.force, e.b) -= tension / length * along;
   sum.elastic += 0.5 * e.stiffness * stretch * stretch;

@@ -63,9 +63,10 @@ class Oracle {
   Evaluation evaluate(const std::vector<Vec3>& x, const std::vector<Vec3>& v) const;
 
   bool rings_active() const { return !waits_ || activated_; }
-  double mass(Index node) const;  ///< kg, as it counts now
-  Vec3 momentum() const;          ///< kg m/s, of v_{n-1/2}
-  Vec3 angular_momentum() const;  ///< kg m^2/s about the origin, of x_n and v_{n-1/2}
+  double mass(Index node) const;      ///< kg, as it counts now
+  double mobility(Index node) const;  ///< 1/kg, 0 where the node is fixed
+  Vec3 momentum() const;              ///< kg m/s, of v_{n-1/2}
+  Vec3 angular_momentum() const;      ///< kg m^2/s about the origin, of x_n and v_{n-1/2}
 
  private:
   /// An element that may touch a ring or ball, and how much of the contact at its end nodes it carries; 0
@@ -93,6 +94,7 @@ class Oracle {
   bool allowed(Index element, const std::vector<Index>& parts, Index host) const;
 
   void add_gravity(const Motion& m, Evaluation& sum) const;
+  double spring_force(Index element, double stretch, double before, double drag) const;
   void add_element(Index element, const Motion& m, Evaluation& sum) const;
   void add_ring(Index ring, const Motion& m, Evaluation& sum) const;
   void add_ball(Index ball, const Motion& m, Evaluation& sum) const;
