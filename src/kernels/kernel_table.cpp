@@ -14,6 +14,7 @@ namespace cinch {
   void fill_ring_contact(KernelTable& table);  \
   void fill_ball_contact(KernelTable& table);  \
   void fill_sliding_joint(KernelTable& table); \
+  void fill_ring_body(KernelTable& table);     \
   void fill_node_update(KernelTable& table);   \
   void fill_energy(KernelTable& table);        \
   void fill(KernelTable& table) {              \
@@ -21,6 +22,7 @@ namespace cinch {
     fill_ring_contact(table);                  \
     fill_ball_contact(table);                  \
     fill_sliding_joint(table);                 \
+    fill_ring_body(table);                     \
     fill_node_update(table);                   \
     fill_energy(table);                        \
   }                                            \

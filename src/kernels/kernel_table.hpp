@@ -58,6 +58,7 @@ void fill_axial(KernelTable& table);
 void fill_ring_contact(KernelTable& table);
 void fill_ball_contact(KernelTable& table);
 void fill_sliding_joint(KernelTable& table);
+void fill_ring_body(KernelTable& table);
 void fill_node_update(KernelTable& table);
 void fill_energy(KernelTable& table);
 }  // namespace CINCH_ISA

@@ -16,10 +16,6 @@
 // end for half a step before it; with the old force for the share s - 1/2 of the new one the work is right to
 // second order.
 //
-// A ring on an element is a body between its ends: they are held apart as by a spring that only pushes, once
-// the host is a small part of its rest length. The host's tension is over by then. Shorter and shorter hosts
-// would turn faster and faster, and in the end by any angle in a step.
-//
 // Elements are computed as straight ones with all the others. What is added here is the difference.
 //
 // Its forces may hold for several steps of the scheme, m dt = H in all: threads and rings move slowly beside
@@ -31,6 +27,7 @@
 #include "kernels/axial_law.hpp"
 #include "kernels/contact_item.hpp"
 #include "kernels/kernel_table.hpp"
+#include "kernels/ring_body.hpp"
 #include "kernels/ring_tally.hpp"
 #include "kernels/shortest_path.hpp"
 
@@ -132,38 +129,6 @@ inline Host host_of(const SlidingArguments& g, const kernel::Joint& joint) {
   const V3 along = xb - xa;
   const double length = norm(along), inverse = length > 0 ? 1 / length : 0.0;
   return {{0.5 * (xa + xb), inverse * along, joint.opening}, 0.5 * (va + vb), inverse * (vb - va), inverse};
-}
-
-// ---- the ring's body between the ends of its host
-
-// A host whose ends are too near, as they stand.
-struct ShortHost {
-  V3 along;          // from one end to the other, m
-  double length;     // m
-  double shortness;  // by how much they are too near, m; 0: they are not
-};
-
-inline ShortHost short_host(const kernel::ContactArguments& c, const kernel::Joint& joint) {
-  const V3 along = at(c.x, c.y, c.z, joint.host_b) - at(c.x, c.y, c.z, joint.host_a);
-  const double square = dot(along, along);
-  if (!(square < joint.host_least * joint.host_least)) return {along, 0, 0};
-  const double length = std::sqrt(square);
-  return {along, length, joint.host_least - length};
-}
-
-// A ring through which several threads pass pushes with a part for each.
-Index push_hosts(const SlidingArguments& g, kernel::Load* loads) {
-  LoadWriter out{loads};
-  for (Index t = 0; t < g.thread_count; ++t)
-    for (Index j = g.threads[t].joint_begin; j < g.threads[t].joint_end; ++j) {
-      const kernel::Joint& joint = g.joints[j];
-      const ShortHost host = short_host(g.contact, joint);
-      if (!(host.shortness > 0 && host.length > 0)) continue;
-      const V3 push = (joint.host_stiffness * host.shortness / host.length) * host.along;
-      out.add(joint.host_a, -1.0 * push);
-      out.add(joint.host_b, push);
-    }
-  return static_cast<Index>(out.next - loads);
 }
 
 // ---- the way through the rings of one element
@@ -593,9 +558,6 @@ void sliding_joints(const SlidingArguments& g, kernel::Load* on_threads, kernel:
 
 }  // namespace
 
-void fill_sliding_joint(KernelTable& table) {
-  table.sliding_joints = sliding_joints;
-  table.push_hosts = push_hosts;
-}
+void fill_sliding_joint(KernelTable& table) { table.sliding_joints = sliding_joints; }
 
 }  // namespace cinch::CINCH_ISA

@@ -1,0 +1,27 @@
+#include "kernels/ring_body.hpp"
+
+#include "kernels/kernel_table.hpp"
+
+namespace cinch::CINCH_ISA {
+namespace {
+
+// A ring through which several threads pass pushes with a part for each.
+Index push_hosts(const kernel::SlidingArguments& g, kernel::Load* loads) {
+  LoadWriter out{loads};
+  for (Index t = 0; t < g.thread_count; ++t)
+    for (Index j = g.threads[t].joint_begin; j < g.threads[t].joint_end; ++j) {
+      const kernel::Joint& joint = g.joints[j];
+      const ShortHost host = short_host(g.contact, joint);
+      if (!(host.shortness > 0 && host.length > 0)) continue;
+      const V3 push = (joint.host_stiffness * host.shortness / host.length) * host.along;
+      out.add(joint.host_a, -1.0 * push);
+      out.add(joint.host_b, push);
+    }
+  return static_cast<Index>(out.next - loads);
+}
+
+}  // namespace
+
+void fill_ring_body(KernelTable& table) { table.push_hosts = push_hosts; }
+
+}  // namespace cinch::CINCH_ISA
