@@ -76,14 +76,19 @@ TEST(AxialLaw, IsThatOfTheSpringAwayFromTheSwitch) {
 
 TEST(AxialLaw, HasNoJumpWhereTheSwitchBegins) {
   const double l = 1.001, dt = 1e-3;
-  for (const double sign : {-1.0, 1.0}) {
-    const auto spring = [&](double rate) {
-      const plain::Axial item = plain::axial_law(l * l, l * rate, stiffness, 0, rest_length, dt, 0);
-      return item.tension;
-    };
-    EXPECT_NEAR(spring(sign * (1 + 1e-9)), spring(sign * (1 - 1e-9)), 1e-8);
-    EXPECT_NEAR(spring(sign * 1e9), 0.5 * stiffness * 0.001, 1e-5);
-  }
+  for (const double give : {0.0, 2e-4, 1e-3, 3e-3})
+    for (const double damping : {0.0, 0.2, 5.0}) {
+      const auto spring = [&](double rate) {
+        const plain::Axial item =
+            plain::axial_law(l * l, l * rate, stiffness, damping, rest_length, dt, give);
+        return item.tension - item.damper;
+      };
+      for (double rate = -3; rate < 3; rate += 1e-3)
+        EXPECT_NEAR(spring(rate + 1e-6), spring(rate - 1e-6), 5e-5) << rate << " " << give << " " << damping;
+    }
+  for (const double sign : {-1.0, 1.0})
+    EXPECT_NEAR(plain::axial_law(l * l, l * sign * 1e9, stiffness, 0, rest_length, dt, 0).tension,
+                0.5 * stiffness * 0.001, 1e-5);
 }
 
 TEST(AxialLaw, SlackElementsPullAtNothing) {

@@ -174,7 +174,7 @@ struct Bench {  // a thread with rings, in arrays of its own
     std::vector<double> scratch(joints.size() * kernel::sliding_scratch);
     on_threads.resize(4 * joints.size());
     on_hosts.resize(4 * joints.size());
-    const std::vector<double> mobility(nodes.size(), 0.0);  // heavy: elements turn taut at a constant rate
+    const std::vector<double> mobility(nodes.size(), 100.0);  // 1/kg
     const kernel::ContactArguments contact{x[0].data(), x[1].data(), x[2].data(), v[0].data(),
                                            v[1].data(), v[2].data(), nullptr,     0,
                                            0,           dt,          1e-6};
@@ -193,7 +193,7 @@ struct Bench {  // a thread with rings, in arrays of its own
     const Vec3 r = place(nodes[at(e) + 1]) - place(nodes[at(e)]),
                w = velocity(nodes[at(e) + 1]) - velocity(nodes[at(e)]);
     return plain::axial_law(r.squaredNorm(), r.dot(w), thread.stiffness, thread.damping, thread.rest_length,
-                            1e-6, 0);
+                            1e-6, 1e-12 * 200);
   }
   double energy() {
     evaluate();

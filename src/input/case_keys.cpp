@@ -70,8 +70,8 @@ const Section<TimeSpec>& time_section() {
             .by_method = {{"paper", "1"}},
             .meaning = "Steps for which the forces of sliding joints hold: they are computed for where nodes "
                        "will be in the middle of them. `auto`: as many, up to 8, as would still be stable "
-                       "for twice the stiffness at the stable step.",
-            .source = "`bench/study`: errors as with 1 in less than half of the run time"},
+                       "for twice the stiffness at the stable step; fewer for steps below 0.8 of it.",
+            .source = "`bench/study`: errors as with 1 in half of the run time"},
            [](TimeSpec& time, const Value& value) { time.joint_steps = value.is_word ? 0 : value.whole; }},
           {{.name = "allow_unstable",
             .type = flag,

@@ -81,7 +81,7 @@ struct GroupItems {
   alignas(64) double rate[lanes], damper[lanes], energy[lanes];
 };
 
-/// The forces of one group; returns whether elements of it turn taut or slack.
+/// The forces of one group; returns whether elements of it may turn taut or slack.
 template <bool damped, bool chain, bool switching>
 inline bool forces_of_group(const SpanView& s, std::ptrdiff_t number, GroupItems& items) {
   const double* __restrict const row =
@@ -107,7 +107,8 @@ inline bool forces_of_group(const SpanView& s, std::ptrdiff_t number, GroupItems
   return spare < 0;
 }
 
-/// Elements that turn taut or slack are few and cost a division: a group that has some is computed anew.
+/// Elements that turn taut or slack are few and cost roots and divisions: a group that may have some is
+/// computed anew.
 template <bool damped, Book::Sum book, bool chain>
 inline void group(const SpanView& s, std::ptrdiff_t number, Sums& sums) {
   GroupItems items;

@@ -1,8 +1,8 @@
 // The law of axial_law.hpp for eight elements at once, by hand (AVX-512): the operations on each number and
 // their order are the same, and so are the bits.
 //
-// Elements that turn taut or slack in a step are few, and cost a division: it is done only for a group that
-// has some. Compilers do not see that.
+// Elements that turn taut or slack in a step are few, and cost roots and divisions: these are done only for a
+// group that has some. Compilers do not see that.
 #pragma once
 #pragma GCC diagnostic push  // false alarms, GCC bug 105593
 #pragma GCC diagnostic ignored "-Wuninitialized"
@@ -54,17 +54,44 @@ CINCH_INLINE Taut taut(const Relative& r, const double* palette) {
   return {r.rx, r.ry, r.rz, r.rv, length - rest, _mm512_set1_pd(1.0) / length};
 }
 
-/// S of elements of which those in `switching` may turn taut or slack.
+/// As the scalar one of axial_law.hpp.
+CINCH_INLINE Group spring_turning_taut(Group k, Group stretch, Group change, Group drag, Group give) {
+  const Group zero = _mm512_setzero_pd(), two = _mm512_set1_pd(2.0), four = _mm512_set1_pd(4.0);
+  const Group lost = give * drag, yield = give * k;
+  const Group b = two * change - lost + yield * stretch, c = stretch * (stretch + change - lost);
+  const Group root = _mm512_sqrt_pd(_mm512_max_pd(b * b - four * yield * c, zero));
+  return _mm512_maskz_mul_pd(_mm512_cmp_pd_mask(c, zero, _CMP_GT_OQ), k, two * c / (b + root));
+}
+
+/// As the scalar one of axial_law.hpp.
+CINCH_INLINE Group spring_turning_slack(Group k, Group stretch, Group change, Group drag, Group give) {
+  const Group zero = _mm512_setzero_pd(), two = _mm512_set1_pd(2.0), four = _mm512_set1_pd(4.0);
+  const Group yield = give * k, b = give * drag - two * change, c = stretch * (stretch - change);
+  const Group root = _mm512_sqrt_pd(b * b + four * yield * c);
+  const __mmask8 plus = _mm512_cmp_pd_mask(b, zero, _CMP_GT_OQ);
+  const Group spring =
+      k * (_mm512_mask_blend_pd(plus, root - b, two * c) / _mm512_mask_blend_pd(plus, two * yield, b + root));
+  const Group by_change = k * (c / _mm512_abs_pd(change)), loose = _mm512_set1_pd(0.5) * by_change;
+  const __mmask8 shrinks = _mm512_cmp_pd_mask(change, zero, _CMP_LT_OQ);
+  const Group least = by_change * _mm512_mask_blend_pd(shrinks, _mm512_set1_pd(1 / (furthest - 1)),
+                                                       _mm512_set1_pd(1 / (furthest + 1)));
+  const __mmask8 pulls = _mm512_cmp_pd_mask(spring + drag, zero, _CMP_GT_OQ);
+  return _mm512_mask_blend_pd(pulls, loose, _mm512_max_pd(spring, least));
+}
+
+/// S of elements of which those in `near` may turn taut or slack; for the others k s.
 CINCH_INLINE Group spring_at_switch(Group full, Group stretch, Group change, Group drag,
-                                    const double* palette, __mmask8 switching) {
-  alignas(64) double k[kernel::lanes], s[kernel::lanes], d[kernel::lanes], c[kernel::lanes],
-      spring[kernel::lanes];
-  store(k, load(palette)), store(s, stretch), store(d, change), store(c, drag), store(spring, full);
-  const double* const give = palette + 3 * kernel::lanes;
-  for (Index lane = 0; lane < kernel::lanes; ++lane)
-    if (switching >> lane & 1)
-      spring[lane] = spring_at_switch(k[lane], s[lane], d[lane], c[lane], give[lane]);
-  return load(spring);
+                                    const double* palette, __mmask8 near) {
+  const Group k = load(palette), give = load(palette + 3 * kernel::lanes), zero = _mm512_setzero_pd();
+  const __mmask8 taut = _mm512_mask_cmp_pd_mask(near, stretch, change, _CMP_LT_OQ);
+  const Group shrinks = give * _mm512_max_pd(full + drag, zero) - change;
+  const Group most = _mm512_set1_pd(furthest) * _mm512_abs_pd(change);
+  const __mmask8 slack =
+      _mm512_mask_cmp_pd_mask(_kandn_mask8(taut, near), stretch, _mm512_min_pd(shrinks, most), _CMP_LT_OQ);
+  Group spring = full;
+  if (taut) spring = _mm512_mask_mov_pd(spring, taut, spring_turning_taut(k, stretch, change, drag, give));
+  if (slack) spring = _mm512_mask_mov_pd(spring, slack, spring_turning_slack(k, stretch, change, drag, give));
+  return spring;
 }
 
 /// The forces; with `power` adds that of the damper, whose last force stands at `damper`, to `sum`, and with
@@ -77,10 +104,10 @@ CINCH_INLINE Forces force(const Taut& t, const double* palette, Group dt, double
   Group spring = load(palette) * t.stretch;
   const Group drag = damped ? _mm512_maskz_mul_pd(stretched, load(palette + kernel::lanes), rate) : zero;
   Group tension = _mm512_max_pd(damped ? spring + drag : spring, zero);
-  const Group far = _mm512_set1_pd(1.25) * _mm512_abs_pd(change);
-  const __mmask8 switching = _mm512_mask_cmp_pd_mask(stretched, t.stretch, far, _CMP_LT_OQ);
-  if (switching) [[unlikely]] {
-    spring = spring_at_switch(spring, t.stretch, change, drag, palette, switching);
+  const Group far = _mm512_set1_pd(furthest) * _mm512_abs_pd(change);
+  const __mmask8 near = _mm512_mask_cmp_pd_mask(stretched, t.stretch, far, _CMP_LT_OQ);
+  if (near) [[unlikely]] {
+    spring = spring_at_switch(spring, t.stretch, change, drag, palette, near);
     tension = _mm512_max_pd(spring + drag, zero);
   }
   if (power) {

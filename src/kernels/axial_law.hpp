@@ -3,12 +3,13 @@
 // Positive T pulls the ends together. The damper's force is T - S, and its power (T - S) dl/dt is what the
 // element dissipates.
 //
-// Central differences change the energy where an element turns taut or slack within a step. With the change d
-// of the length in the step before and d' in the one after, half of each end's force does the work S d/2 and
-// S d'/2 beside the steps' other ends. Where the element was slack (s < d), and is taut after, this stores
-// what k s (stretch s) should if
-//   S (d + d') = k s (s + d'),
-// and where it will be slack (s < -d'), and was taut, if
+// Central differences change the energy where an element turns taut or slack within a step. A step takes half
+// of the work from the force at its beginning, half from that at its end. Let d be what the length has
+// changed by in the step before now, d' in the one after. With S = k s whenever taut, steps between taut ends
+// take just what k s^2/2 gains; but where the element was slack, s < d, only S d/2 comes from the step
+// before, and both steps take what is stored if
+//   S (d + d') = k s (s + d').
+// Where it was taut and will be slack, s < -d', that is
 //   S (-d - d') = k s (s - d).
 // With S = k s instead, k s (d - s)/2 is lost whenever an element turns taut and won whenever it turns slack
 // at a constant rate: damped threads turn slack more slowly than taut and lose, undamped ones blow up far
@@ -16,8 +17,8 @@
 //   d' = d - g T,   g = dt^2 (1/m_a + 1/m_b),
 // where nothing else does. For an element alone the rule is exact then; in a net what is left falls with the
 // third power of dt or faster, with d' = d it falls with the second (bench/README.md). Neighbours that hold
-// against the pull of a taut element make it a bad guess: only those within 5/4 steps from slack, s < 5/4
-// |d|, are taken to turn slack.
+// against the pull of a taut element make it a bad guess: -d' counts no further than to 5/4 |d|, so that only
+// elements that have moved towards it turn slack.
 #pragma once
 #include "kernels/vec.hpp"
 
@@ -29,7 +30,7 @@ struct Axial {
   double rate;        ///< dl/dt, m/s; of a slack element l/l0 times that
   double damper;      ///< T - S, N
   double energy;      ///< stored, J
-  double spare;       ///< of a taut element, m: below zero it turns taut or slack about now
+  double spare;       ///< of a taut element, m: not below zero where it turns neither taut nor slack
 };
 
 /// S of an element that was slack, s < d. The smaller root of g k q^2 - b q + c = 0 for q = S/k, between 0
@@ -42,21 +43,24 @@ inline double spring_turning_taut(double k, double stretch, double change, doubl
   return c > 0 ? k * (2 * c / (b + root)) : 0.0;
 }
 
+constexpr double furthest = 1.25;  ///< that an element is taken to shrink in a step, over |d|
+
 /// S of an element that will be slack, s < -d'. The positive root of g k q^2 + b q = c for q = S/k, free of
-/// cancellation; without tension d' = d, and -d' counts no further than to 5/4 |d|.
+/// cancellation; without tension d' = d, and -d' counts no further than to `furthest` |d|.
 inline double spring_turning_slack(double k, double stretch, double change, double drag, double give) {
   const double yield = give * k, b = give * drag - 2 * change, c = stretch * (stretch - change);
   const double root = std::sqrt(b * b + 4 * yield * c);
   const double spring = k * ((b > 0 ? 2 * c : root - b) / (b > 0 ? b + root : 2 * yield));
-  const double least = k * (c / (1.25 * std::fabs(change) - change)), loose = k * (c / (-2 * change));
+  const double by_change = k * (c / std::fabs(change)), loose = 0.5 * by_change;
+  const double least = by_change * (change < 0 ? 1 / (furthest + 1) : 1 / (furthest - 1));
   return spring + drag > 0 ? (spring > least ? spring : least) : loose;
 }
 
-/// S for the stretch s >= 0, the change of length d in the step before, the damper's pull c dl/dt and g.
-/// Where the element turns neither taut nor slack it is k s to the last bit: no branch is needed.
+/// S for the stretch s > 0, the change of length d in the step before, the damper's pull c dl/dt and g. Where
+/// the element turns neither taut nor slack it is k s to the last bit.
 inline double spring_at_switch(double k, double stretch, double change, double drag, double give) {
   const double full = k * stretch, pull = full + drag > 0 ? full + drag : 0.0;
-  const double shrinks = give * pull - change, most = 1.25 * std::fabs(change);
+  const double shrinks = give * pull - change, most = furthest * std::fabs(change);
   const double taut = spring_turning_taut(k, stretch, change, drag, give);
   const double slack = spring_turning_slack(k, stretch, change, drag, give);
   return stretch < change ? taut : stretch < (shrinks < most ? shrinks : most) ? slack : full;
@@ -73,7 +77,7 @@ inline Axial axial_law(double rr, double rv, double k, double c, double l0, doub
   const double stretch = taut - l0;
   const double rate = rv * inverse, change = rate * dt;
   const double full = k * stretch, drag = stretch > 0 ? c * rate : 0.0;
-  const double spare = stretch > 0 ? stretch - 1.25 * std::fabs(change) : 0.0;
+  const double spare = stretch > 0 ? stretch - furthest * std::fabs(change) : 0.0;
   const double spring = switching && stretch > 0 ? spring_at_switch(k, stretch, change, drag, give) : full;
   const double pull = spring + drag;
   const double tension = pull > 0 ? pull : 0.0;

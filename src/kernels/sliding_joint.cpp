@@ -420,8 +420,8 @@ inline void load_ring(const Slide& s, Index j, V3 force, SlidingWriter& out) {
 inline Pulls pulls_of(const Slide& s, const Group& group) {
   Way& way = s.work[group.first].way;
   const double rate = dot(way.direct.unit, s.speed(group.element + 1) - s.speed(group.element));
-  const double give = s.give(group.element);  // what rings change of it gains nothing (bench/README.md)
-  const Pulls pulls{Pull(s, way.length, length_rate(s, group), 0), Pull(s, way.direct.length, rate, give)};
+  const double give = s.give(group.element);  // of both: a way may be straight. Rings give way, too, but less
+  const Pulls pulls{Pull(s, way.length, length_rate(s, group), give), Pull(s, way.direct.length, rate, give)};
   way.damper = pulls.with.damper, way.direct_damper = pulls.without.damper;
   return pulls;
 }

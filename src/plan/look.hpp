@@ -58,7 +58,7 @@ class Look {
   const Model* model_ = nullptr;
   const State* state_ = nullptr;
   const Assembly* assembly_ = nullptr;
-  std::optional<Give> give_;  ///< of the model
+  std::optional<ElementGive> give_;  ///< of the model
   double time_ = 0, share_ = 0, dt_ = 0;
   Glance glance_;
   Energies energy_;

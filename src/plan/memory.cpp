@@ -59,8 +59,8 @@ std::size_t NearContacts::memory() const {
 }
 
 std::size_t SlidingJoints::memory() const {
-  return bytes_of(threads_, nodes_, joints_, number_, scene_thread_, states_, tallies_, scratch_, on_threads_,
-                  on_hosts_, pushing_, ends_);
+  return bytes_of(threads_, nodes_, mobility_, joints_, number_, scene_thread_, states_, tallies_, scratch_,
+                  on_threads_, on_hosts_, pushing_, ends_);
 }
 
 std::size_t Piece::memory() const {
@@ -81,8 +81,10 @@ std::size_t Stepper::memory_of_pieces() const {
   return sum;
 }
 
+std::size_t ElementGive::memory() const { return bytes_of(inverse_mass_); }
+
 std::size_t Look::memory() const {
-  std::size_t sum = bytes_of(glance_.elastic, glance_.due, glance_.loads);
+  std::size_t sum = bytes_of(glance_.elastic, glance_.due, glance_.loads) + (give_ ? give_->memory() : 0);
   for (const auto& gain : glance_.gain) sum += bytes_of(gain);
   return sum;
 }

@@ -18,7 +18,8 @@ struct Row {
 };
 static_assert(sizeof(Row) == kernel::palette_fields * kernel::lanes * sizeof(double));
 
-Row row_of(const Model& model, const Topology& topology, const Run& run, Index group, const Give& give) {
+Row row_of(const Model& model, const Topology& topology, const Run& run, Index group,
+           const ElementGive& give) {
   Row row;
   for (Index lane = 0; lane < kernel::lanes; ++lane) {
     const Index k = first_group_node(run) + group * kernel::lanes + lane - run.a;
@@ -33,7 +34,7 @@ Row row_of(const Model& model, const Topology& topology, const Run& run, Index g
 
 }  // namespace
 
-Palette make_palette(const Model& model, const Topology& topology, const Give& give) {
+Palette make_palette(const Model& model, const Topology& topology, const ElementGive& give) {
   Palette palette;
   std::unordered_map<std::string, Index> rows;  // by their bytes
   std::string bytes(sizeof(Row), '\0');

@@ -9,9 +9,10 @@ namespace cinch {
 
 /// g of axial_law.hpp for the elements of a model, m/N: dt^2 (1/m_a + 1/m_b). A fixed end counts as
 /// infinitely heavy. The model must live as long.
-class Give {
+class ElementGive {
  public:
-  Give(const Model& model, double dt) : model_(&model), dt_(dt), inverse_mass_(mobility(model)) {}
+  ElementGive(const Model& model, double dt) : model_(&model), dt_(dt), inverse_mass_(mobility(model)) {}
+  std::size_t memory() const;  ///< bytes, see memory.hpp
   double operator()(std::size_t element) const {
     return dt_ * dt_ * (end(model_->end_a[element]) + end(model_->end_b[element]));
   }
@@ -29,6 +30,6 @@ struct Palette {
 };
 
 /// Of the runs of a topology. Lanes without element are never taut.
-Palette make_palette(const Model& model, const Topology& topology, const Give& give);
+Palette make_palette(const Model& model, const Topology& topology, const ElementGive& give);
 
 }  // namespace cinch

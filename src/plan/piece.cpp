@@ -67,7 +67,7 @@ void Piece::set_constraints(const Model& model) {
 }
 
 void Piece::set_parameters(const Model& model) {
-  const Give give(model, plan_.dt);
+  const ElementGive give(model, plan_.dt);
   palette_ = make_palette(model, topology_, give);
   for (std::size_t i = 0; i < topology_.links.size(); ++i) {
     const auto e = at(topology_.links[i].element);

@@ -241,12 +241,12 @@ double Oracle::spring_force(Index element, double stretch, double before, double
   const bool was_slack = stretch < before;
   const bool will_be_slack = stretch + std::max(after(full), furthest) < 0;
   if (!was_slack && !will_be_slack) return full;
-  // work of both half steps less what they ought to store; grows with the spring's force
+  // work of both half steps less what they ought to store; has one zero between 0 and the full force
   const auto excess = [&](double spring) {
     return was_slack ? spring * (before + after(spring)) - full * (stretch + after(spring))
                      : -spring * (before + std::max(after(spring), furthest)) - full * (stretch - before);
   };
-  if (excess(0) >= 0) return 0;
+  if (excess(0) > 0) return 0;
   double low = 0, high = full;
   for (int i = 0; i < 100; ++i) (excess(0.5 * (low + high)) < 0 ? low : high) = 0.5 * (low + high);
   return high;
