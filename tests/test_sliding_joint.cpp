@@ -147,7 +147,8 @@ struct Bench {  // a thread with rings, in arrays of its own
   std::vector<kernel::Load> on_threads, on_hosts;
   double dt = 0;  // of a step; 0: a look, which tells what dampers would take in a second
   double ahead = 0;
-  double host_least = 0;  // of hosts of two nodes, m
+  double host_least = 0;       // of hosts of two nodes, m
+  double node_mobility = 100;  // 1/kg
 
   Index add(const Vec3& place, const Vec3& velocity) {
     for (int d = 0; d < 3; ++d) x[at(d)].push_back(place[d]), v[at(d)].push_back(velocity[d]);
@@ -174,7 +175,7 @@ struct Bench {  // a thread with rings, in arrays of its own
     std::vector<double> scratch(joints.size() * kernel::sliding_scratch);
     on_threads.resize(4 * joints.size());
     on_hosts.resize(4 * joints.size());
-    const std::vector<double> mobility(nodes.size(), 100.0);  // 1/kg
+    const std::vector<double> mobility(nodes.size(), node_mobility);
     const kernel::ContactArguments contact{x[0].data(), x[1].data(), x[2].data(), v[0].data(),
                                            v[1].data(), v[2].data(), nullptr,     0,
                                            0,           dt,          1e-6};
@@ -234,6 +235,24 @@ Bench bent_thread(Dice& dice, int rings, bool own_node, double host_least = 0) {
     }
   }
   return bench;
+}
+
+// It turns taut by the law of all elements then, and a look must not tell of more.
+TEST(SlidingJoint, AThreadStraightThroughARingPullsAsWithout) {
+  for (const double rate : {-20.0, 20.0, 200.0}) {
+    Bench bench;
+    bench.node_mobility = 1e9;
+    bench.thread.damping = 0.001;
+    for (const double x : {0.0, 0.05 + 1e-5})
+      bench.nodes.push_back(bench.add({x, 0, 0}, {x > 0 ? rate : 0, 0, 0}));
+    const Index a = bench.add({0.02, -0.01, 0}, Vec3::Zero()), b = bench.add({0.02, 0.01, 0}, Vec3::Zero());
+    bench.add_ring(a, a, 0);
+    bench.joints[0].host_b = b;
+    bench.joints[0].opening = 0.02;
+    bench.evaluate();
+    for (const auto* loads : {&bench.on_threads, &bench.on_hosts})
+      for (const kernel::Load& load : *loads) EXPECT_EQ(Vec3(load.x, load.y, load.z).norm(), 0) << rate;
+  }
 }
 
 TEST(SlidingJoint, ForcesAreTheSlopeOfTheEnergy) {
