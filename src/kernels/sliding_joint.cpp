@@ -165,8 +165,13 @@ inline double round_of_waypoints(const Slide& s, const Group& group, V3 a, V3 b)
 inline void find_waypoints(const Slide& s, const Group& group, V3 a, V3 b) {
   constexpr int most_rounds = 1000;  // a dozen do, but where rings lie at one place at first
   const double close = 1e-5 * s.work[group.first].host.opening.radius;
-  for (int i = 0; i < most_rounds; ++i)
-    if (round_of_waypoints(s, group, a, b) <= close * close) break;
+  double last = 0;
+  for (int i = 0; i < most_rounds; ++i) {
+    // rounds change less and less at about the same ratio: what is left is the sum of all to come
+    const double change = std::sqrt(round_of_waypoints(s, group, a, b));
+    if (change <= close || (change < last && change * change <= close * (last - change))) break;
+    last = change;
+  }
 }
 
 // The length of the way through the rings' centres: never shorter than the shortest one.
