@@ -103,6 +103,36 @@ TEST(AxialLaw, SlackElementsPullAtNothing) {
 
 // ---- whole scenes
 
+// Two masses that fly apart, a single element between them: a link, no run.
+TEST(AxialLaw, TwoMassesOnAnElementKeepTheirEnergy) {
+  Scene scene = scene_of(R"(schema = 1
+[time]
+end_s = 0.2
+[material.m]
+youngs_modulus_Pa = 1e7
+density_kg_m3 = 970
+damping_ratio = 0
+[thread.main]
+material = "m"
+diameter_m = 0.002
+elements = 1
+length_m = 1
+points_m = [[0, 0, 0], [0.99, 0, 0]]
+start = { mass_kg = 0.1, velocity_m_s = [-1, 0, 0] }
+end = { mass_kg = 0.03, velocity_m_s = [1, 0, 0] }
+)");
+  scene.time.step = 0;
+  const double stable = prepare(scene).stable_step;
+  for (const double part : {0.05, 0.12, 0.2}) {
+    scene.time.step = part * stable;
+    Simulation simulation(scene, 1);
+    ASSERT_EQ(simulation.model().topology.links.size(), 1u);
+    run_until(simulation, 0.2);
+    EXPECT_LT(std::abs(simulation.summary().energy.residual), 1e-12) << part;
+    EXPECT_LT(simulation.look().velocity(1).x(), -0.5) << "it must have bounced";
+  }
+}
+
 // Central differences alone win 70 % here.
 TEST(AxialLaw, AnUndampedThreadThatSlackensKeepsItsEnergy) {
   Simulation simulation(slackening_thread(6.2e-6), 1);
