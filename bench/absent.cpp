@@ -59,7 +59,7 @@ StrippedNet::StrippedNet(const Features& has)
   if (!work_.links.empty() || !work_.kicks.empty())
     throw Error(ExitCode::internal, "error: the stripped programs know no links");
   const double dt = start_.preparation().dt;
-  palette_ = make_palette(model_, model_.topology, ElementGive(model_, dt));
+  palette_ = make_palette(model_, model_.topology, dt);
   for (Index i = 0; i < model_.nodes; ++i) scale_.push_back(dt / model_.mass[at(i)]);
   for (auto& f : force_) f.assign(at(work_.force_count), 0.0);
   damper_.assign(palette_.of_group.size() * kernel::lanes, 0.0);

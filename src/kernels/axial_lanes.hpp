@@ -79,15 +79,13 @@ CINCH_INLINE Group spring_turning_slack(Group k, Group stretch, Group change, Gr
   return _mm512_mask_blend_pd(pulls, loose, _mm512_max_pd(spring, least));
 }
 
-/// S of elements of which those in `near` may turn taut or slack; for the others k s.
+/// S of elements of which those in `near`, s < `furthest` |d|, may turn taut or slack; for the others k s.
 CINCH_INLINE Group spring_at_switch(Group full, Group stretch, Group change, Group drag,
                                     const double* palette, __mmask8 near) {
   const Group k = load(palette), give = load(palette + 3 * kernel::lanes), zero = _mm512_setzero_pd();
   const __mmask8 taut = _mm512_mask_cmp_pd_mask(near, stretch, change, _CMP_LT_OQ);
   const Group shrinks = give * _mm512_max_pd(full + drag, zero) - change;
-  const Group most = _mm512_set1_pd(furthest) * _mm512_abs_pd(change);
-  const __mmask8 slack =
-      _mm512_mask_cmp_pd_mask(_kandn_mask8(taut, near), stretch, _mm512_min_pd(shrinks, most), _CMP_LT_OQ);
+  const __mmask8 slack = _mm512_mask_cmp_pd_mask(_kandn_mask8(taut, near), stretch, shrinks, _CMP_LT_OQ);
   Group spring = full;
   if (taut) spring = _mm512_mask_mov_pd(spring, taut, spring_turning_taut(k, stretch, change, drag, give));
   if (slack) spring = _mm512_mask_mov_pd(spring, slack, spring_turning_slack(k, stretch, change, drag, give));

@@ -3,6 +3,7 @@
 #include <numeric>
 
 #include "kernels/axial_law.hpp"
+#include "plan/palette.hpp"
 
 namespace cinch {
 namespace {
@@ -51,7 +52,6 @@ double couple_work(const State& state) {
 }
 
 void Look::take(Stepper& stepper, State& state, const Assembly& assembly, bool half_step) {
-  if (model_ != &stepper.model() || !give_) give_.emplace(stepper.model(), stepper.plan().dt);
   model_ = &stepper.model();
   state_ = &state;
   assembly_ = &assembly;
@@ -152,7 +152,7 @@ Look::Pull Look::pull(Index element) const {
   const double rest = model_->rest_length[e];
   const plain::Axial item =
       plain::axial_law(plain::dot(along, along), plain::dot(along, moving), model_->stiffness[e],
-                       model_->damping[e], rest, dt_, (*give_)(e));
+                       model_->damping[e], rest, dt_, element_give(*model_, e, dt_));
   return {item.tension, (r.norm() - rest) / rest};
 }
 

@@ -4,10 +4,7 @@
 // Positions and velocities are those of the same instant, v(n) = v(n-1/2) + 1/2 (v(n+1/2) - v(n-1/2)): a
 // glance at what the next step would do gives the difference.
 #pragma once
-#include <optional>
-
 #include "base/result.hpp"
-#include "plan/palette.hpp"
 #include "plan/stepper.hpp"
 
 namespace cinch {
@@ -58,7 +55,6 @@ class Look {
   const Model* model_ = nullptr;
   const State* state_ = nullptr;
   const Assembly* assembly_ = nullptr;
-  std::optional<ElementGive> give_;  ///< of the model
   double time_ = 0, share_ = 0, dt_ = 0;
   Glance glance_;
   Energies energy_;

@@ -81,10 +81,8 @@ std::size_t Stepper::memory_of_pieces() const {
   return sum;
 }
 
-std::size_t ElementGive::memory() const { return bytes_of(inverse_mass_); }
-
 std::size_t Look::memory() const {
-  std::size_t sum = bytes_of(glance_.elastic, glance_.due, glance_.loads) + (give_ ? give_->memory() : 0);
+  std::size_t sum = bytes_of(glance_.elastic, glance_.due, glance_.loads);
   for (const auto& gain : glance_.gain) sum += bytes_of(gain);
   return sum;
 }

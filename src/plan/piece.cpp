@@ -67,13 +67,12 @@ void Piece::set_constraints(const Model& model) {
 }
 
 void Piece::set_parameters(const Model& model) {
-  const ElementGive give(model, plan_.dt);
-  palette_ = make_palette(model, topology_, give);
+  palette_ = make_palette(model, topology_, plan_.dt);
   for (std::size_t i = 0; i < topology_.links.size(); ++i) {
     const auto e = at(topology_.links[i].element);
     kernel::Link& link = reduction_.links[i];
     link.stiffness = model.stiffness[e], link.damping = model.damping[e];
-    link.rest_length = model.rest_length[e], link.give = give(e);
+    link.rest_length = model.rest_length[e], link.give = element_give(model, e, plan_.dt);
   }
 }
 

@@ -12,8 +12,8 @@ namespace {
 
 // Threads with little damping that turn slack and taut change their energy well below the linear bound: what
 // their neighbours do to the rate is beyond axial_law.hpp. A thread that springs back from twice its length
-// loses 9 % in a second at half the bound with 0.01 of the critical damping, 1 % at these; without any it
-// loses more at each.
+// loses 9 % in a second at half the bound with 0.01 of the critical damping, about 1 % at these; without any
+// it loses more at each.
 double greatest_safety(double damping_ratio) {
   return damping_ratio < 0.005 ? 0.1 : damping_ratio < 0.02 ? 0.2 : damping_ratio < 0.05 ? 0.3 : 1.0;
 }

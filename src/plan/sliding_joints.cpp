@@ -9,8 +9,7 @@ constexpr std::size_t at(Index i) { return static_cast<std::size_t>(i); }
 
 }  // namespace
 
-void SlidingJoints::add_thread(const Model& model, const std::vector<double>& mobility, std::size_t number,
-                               bool booked) {
+void SlidingJoints::add_thread(const Model& model, std::size_t number, bool booked) {
   kernel::SlidingThread thread = model.sliding_threads[number];
   const auto nodes = model.sliding_nodes.begin() + thread.node_begin;
   const Index first = thread.joint_begin, last = thread.joint_end;
@@ -21,7 +20,7 @@ void SlidingJoints::add_thread(const Model& model, const std::vector<double>& mo
   scene_thread_.push_back(static_cast<Index>(number));
   nodes_.insert(nodes_.end(), nodes, nodes + thread.elements + 1);
   for (auto node = nodes; node != nodes + thread.elements + 1; ++node)
-    mobility_.push_back(mobility[at(*node)]);
+    mobility_.push_back(mobility(model, *node));
   joints_.insert(joints_.end(), model.joints.begin() + first, model.joints.begin() + last);
   for (Index j = first; j < last; ++j) number_.push_back(j);
   threads_.push_back(thread);
@@ -38,21 +37,19 @@ void SlidingJoints::make_room(const Model& model) {
 }
 
 void SlidingJoints::take_all(const Model& model) {
-  const std::vector<double> inverse_mass = mobility(model);
-  for (std::size_t t = 0; t < model.sliding_threads.size(); ++t) add_thread(model, inverse_mass, t, true);
+  for (std::size_t t = 0; t < model.sliding_threads.size(); ++t) add_thread(model, t, true);
   books_ring_.assign(model.rings.size(), true);
   make_room(model);
 }
 
 void SlidingJoints::take_share(const Model& model, const std::function<bool(Index)>& own) {
-  const std::vector<double> inverse_mass = mobility(model);
   for (std::size_t t = 0; t < model.sliding_threads.size(); ++t) {
     const kernel::SlidingThread& thread = model.sliding_threads[t];
     const auto nodes = model.sliding_nodes.begin() + thread.node_begin;
     bool here = std::any_of(nodes, nodes + thread.elements + 1, own);
     for (Index j = thread.joint_begin; j < thread.joint_end; ++j)
       here = here || own(model.joints[at(j)].host_a) || own(model.joints[at(j)].host_b);
-    if (here) add_thread(model, inverse_mass, t, own(*nodes));
+    if (here) add_thread(model, t, own(*nodes));
   }
   books_ring_.assign(model.rings.size(), false);
   for (std::size_t r = 0; r < model.rings.size(); ++r) books_ring_[r] = own(model.rings[r].a);

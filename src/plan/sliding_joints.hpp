@@ -51,7 +51,7 @@ class SlidingJoints {
     kernel::SlidingLoads& count;
   };
   Held held_of(State& state, std::size_t thread) const;
-  void add_thread(const Model& model, const std::vector<double>& mobility, std::size_t thread, bool booked);
+  void add_thread(const Model& model, std::size_t thread, bool booked);
   kernel::SlidingArguments arguments(const NodeView& nodes, const StepPlan& plan, double time,
                                      double booked_dt, double ahead, double since);
   void make_room(const Model& model);

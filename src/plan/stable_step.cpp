@@ -9,6 +9,13 @@ namespace {
 
 constexpr std::size_t at(Index i) { return static_cast<std::size_t>(i); }
 
+std::vector<double> mobilities(const Model& model) {
+  std::vector<double> all;
+  all.reserve(at(model.nodes));
+  for (Index i = 0; i < model.nodes; ++i) all.push_back(mobility(model, i));
+  return all;
+}
+
 // Calls visit(node, weight) for what ring of a joint moves: weight bounds how fast the thread's length
 // changes with the node's place. Half of at most 2 goes to each end of a host, and its turn adds at most 2 c
 // / L.
@@ -113,7 +120,7 @@ void for_each_joint_usage(const Model& model, const std::vector<double>& inverse
 StableStep stable_step(const Model& model) {
   StableStep out;
   out.step = std::numeric_limits<double>::infinity();
-  for_each_usage(model, mobility(model), [&](std::size_t e, const Usage& u) {
+  for_each_usage(model, mobilities(model), [&](std::size_t e, const Usage& u) {
     const double step = u.step_at(1);
     if (step < out.step) {
       out.step = step;
@@ -124,7 +131,7 @@ StableStep stable_step(const Model& model) {
 }
 
 int joint_steps(const Model& model, double step, double share, int most) {
-  const std::vector<double> inverse = mobility(model);
+  const std::vector<double> inverse = mobilities(model);
   std::vector<double> used(at(model.elements));
   for_each_usage(model, inverse, [&](std::size_t e, const Usage& usage) { used[e] = usage.at_step(step); });
   double steps = most;
@@ -136,7 +143,7 @@ int joint_steps(const Model& model, double step, double share, int most) {
 }
 
 std::vector<double> node_share(const Model& model, double step, int joint_steps) {
-  const std::vector<double> inverse = mobility(model);
+  const std::vector<double> inverse = mobilities(model);
   std::vector<double> used(at(model.elements)), used_at(inverse.size());
   for_each_usage(model, inverse, [&](std::size_t e, const Usage& usage) { used[e] = usage.at_step(step); });
   if (joint_steps > 1)

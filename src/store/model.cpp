@@ -200,13 +200,12 @@ Model build_model(const Assembly& assembly, const Scene& scene, Stage stage) {
   return model;
 }
 
-std::vector<double> mobility(const Model& model) {
-  std::vector<double> inverse;
-  inverse.reserve(model.mass.size());
-  for (const double mass : model.mass) inverse.push_back(1 / mass);
-  for (const kernel::Constraint& c : model.constraints)
-    if (c.ax == 0 && c.ay == 0 && c.az == 0) inverse[at(c.node)] = 0;
-  return inverse;
+double mobility(const Model& model, Index node) {
+  const auto found = std::lower_bound(model.constraints.begin(), model.constraints.end(), node,
+                                      [](const kernel::Constraint& c, Index n) { return c.node < n; });
+  const bool fixed = found != model.constraints.end() && found->node == node && found->ax == 0 &&
+                     found->ay == 0 && found->az == 0;
+  return fixed ? 0.0 : 1 / model.mass[at(node)];
 }
 
 }  // namespace cinch

@@ -16,10 +16,10 @@ namespace cinch {
 /// The elements that one group of rings or one ball can touch, in ascending order.
 struct ContactSet {
   // field                             meaning                                               unit   shape
-  std::vector<Index> parts;        // parts of the assembly: what makes two sets the same
-  std::vector<Index> elements;     // ascending
-  double thickest = 0;             // greatest thread radius                                m
-  double thinnest = 1e300;         // least thread radius                                   m
+  std::vector<Index> parts;      // parts of the assembly: what makes two sets the same
+  std::vector<Index> elements;   // ascending
+  double thickest = 0;           // greatest thread radius                                m
+  double thinnest = 1e300;       // least thread radius                                   m
   std::vector<double> fraction_a;  // 1 / degree of end a in the set; 0: the paper's rule   -      elements
   std::vector<double> fraction_b;  // ... of end b                                          -      elements
 };
@@ -90,7 +90,7 @@ enum class Stage {
 /// Builds the store; throws CaseError for a node without mass.
 Model build_model(const Assembly& assembly, const Scene& scene, Stage stage);
 
-/// By node: 1/m, 1/kg; 0 of a fixed node.
-std::vector<double> mobility(const Model& model);
+/// 1/m of a node, 1/kg; 0 where it is fixed.
+double mobility(const Model& model, Index node);
 
 }  // namespace cinch
