@@ -15,10 +15,10 @@
 // at a constant rate: damped threads turn slack more slowly than taut and lose, undamped ones blow up far
 // below the linear bound. The pull itself changes the rate,
 //   d' = d - g T,   g = dt^2 (1/m_a + 1/m_b),
-// where nothing else does. For an element alone the rule is exact then; in a net a tenth to a quarter of what
-// d' = d gives is left, up to half of the stable step (bench/README.md). Neighbours that hold
-// against the pull of a taut element make it a bad guess: -d' counts no further than to 5/4 |d|, so that only
-// elements that have moved towards it turn slack.
+// where nothing else does. For an element alone the rule is exact then; in a net a quarter of what d' = d gives
+// is left, or less, up to half of the stable step (bench/README.md). Neighbours that hold against the pull of
+// a taut element make it a bad guess: -d' counts no further than to 5/4 |d|, so that only elements that have
+// moved towards it turn slack.
 #pragma once
 #include "kernels/vec.hpp"
 
