@@ -182,15 +182,7 @@ TEST(Health, ANetThatSinksInAsAWholeHoldsWhatItsNodesHold) {
 }
 
 TEST(Health, ASceneWithoutEnergyIsNotWarnedOfItsRounding) {
-  Scene scene = scene_of(R"(schema = 1
-[time]
-end_s = 1
-[material.m]
-youngs_modulus_Pa = 1e9
-density_kg_m3 = 970
-[thread.main]
-material = "m"
-diameter_m = 0.002
+  Scene scene = thread_scene(1e9, 0.106, R"(
 elements = 20
 points_m = [[-0.05, 0, -0.007], [0.05, 0, -0.007]]
 [ring.r]

@@ -38,17 +38,7 @@ int steps_held(const Scene& scene) { return prepare(scene).phases.back().plan.jo
 
 // A taut thread that quivers over the rim of a fixed ring, after 0.05 s.
 Scene plucked_thread(double step, int held) {
-  Scene scene = scene_of(R"(schema = 1
-[time]
-end_s = 1
-allow_unstable = true
-[material.m]
-youngs_modulus_Pa = 1e7
-density_kg_m3 = 970
-damping_ratio = 0
-[thread.main]
-material = "m"
-diameter_m = 0.002
+  Scene scene = thread_scene(1e7, 0, R"(
 elements = 3
 points_m = [[0, 0, 0], [0.5, 0.05, 0], [1, 0, 0]]
 length_m = 0.9
@@ -65,6 +55,7 @@ normal = [1, 0.2, 0]
 support = "fixed"
 )");
   scene.time.step = step;
+  scene.time.allow_unstable = true;
   scene.time.joint_steps = held;
   return scene;
 }
