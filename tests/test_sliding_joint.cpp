@@ -6,13 +6,13 @@
 #include <algorithm>
 #include <array>
 #include <filesystem>
-#include <random>
 
 #include "base/error.hpp"
 #include "kernels/axial_law.hpp"
 #include "kernels/kernel_table.hpp"
 #include "kernels/shortest_path.hpp"
 #include "oracle/shortest_path.hpp"
+#include "support/dice.hpp"
 #include "support/scenes.hpp"
 
 namespace cinch {
@@ -24,23 +24,6 @@ using namespace test;
 
 Vec3 vec(plain::V3 v) { return {v.x, v.y, v.z}; }
 plain::V3 plain_of(const Vec3& v) { return {v.x(), v.y(), v.z()}; }
-
-class Dice {
- public:
-  explicit Dice(unsigned seed) : engine_(seed) {}
-  double between(double low, double high) {
-    return std::uniform_real_distribution<double>(low, high)(engine_);
-  }
-  Vec3 in_box(double half) { return {between(-half, half), between(-half, half), between(-half, half)}; }
-  Vec3 direction() {
-    Vec3 d = in_box(1);
-    while (d.norm() > 1 || d.norm() < 0.1) d = in_box(1);
-    return d.normalized();
-  }
-
- private:
-  std::mt19937 engine_;
-};
 
 double way(const Vec3& a, const Vec3& p, const Vec3& b) { return (p - a).norm() + (b - p).norm(); }
 
@@ -172,7 +155,7 @@ struct Bench {  // a thread with rings, in arrays of its own
     tallies.resize(joints.size());
     std::vector<kernel::RingTally*> books;
     for (auto& tally : tallies) books.push_back(&tally);
-    std::vector<double> scratch(joints.size() * kernel::sliding_scratch);
+    AlignedVector<double> scratch(kernel::sliding_scratch + joints.size() * kernel::joint_scratch);
     on_threads.resize(4 * joints.size());
     on_hosts.resize(4 * joints.size());
     const std::vector<double> mobility(nodes.size(), node_mobility);

@@ -18,40 +18,54 @@
 
 namespace cinch::CINCH_ISA {
 
+// What has no branches is written for one number or for eight (eight.hpp).
+
 /// Where the thread's centre line can pass through a ring.
-struct Opening {
-  V3 center, normal;  ///< m; unit
-  double radius;      ///< m
+template <class N>
+struct OpeningOf {
+  Triple<N> center, normal;  ///< m; unit
+  N radius;                  ///< m
 };
+using Opening = OpeningOf<double>;
 
 /// A neighbour of a waypoint along the thread: a node, or a waypoint of another ring.
-struct Neighbour {
-  V3 place;      ///< m
-  double lift2;  ///< squared lift of the distance to it, m^2
+template <class N>
+struct NeighbourOf {
+  Triple<N> place;  ///< m
+  N lift2;          ///< squared lift of the distance to it, m^2
 };
+using Neighbour = NeighbourOf<double>;
 
 /// A neighbour as the opening sees it.
-struct Seen {
-  V3 across;      ///< in-plane place relative to the centre, m
-  double height;  ///< sqrt(z^2 + lift^2), m
-  double axial;   ///< z, m
+template <class N>
+struct SeenAs {
+  Triple<N> across;  ///< in-plane place relative to the centre, m
+  N height;          ///< sqrt(z^2 + lift^2), m
+  N axial;           ///< z, m
 };
+using Seen = SeenAs<double>;
 
-inline Seen seen_from(const Opening& o, const Neighbour& n) {
-  const V3 d = n.place - o.center;
-  const double z = dot(o.normal, d);
-  return {d - z * o.normal, n.lift2 > 0 ? std::sqrt(z * z + n.lift2) : std::fabs(z), z};
-}
-
-inline double seen_distance(const Seen& s, V3 offset) {
-  const V3 d = s.across - offset;
-  return std::sqrt(dot(d, d) + s.height * s.height);
+template <class N>
+inline SeenAs<N> seen_from(const OpeningOf<N>& o, const NeighbourOf<N>& n) {
+  const Triple<N> d = n.place - o.center;
+  const N z = dot(o.normal, d);
+  return {d - z * o.normal, pick(n.lift2 > 0, square_root(z * z + n.lift2), magnitude(z)), z};
 }
 
 /// A neighbour in the waypoint itself pulls it in no direction.
-inline double inverse_distance(const Seen& s, V3 offset) {
-  const double d = seen_distance(s, offset);
-  return d > 1e-12 ? 1 / d : 0.0;
+template <class N>
+inline N inverse_distance(const SeenAs<N>& s, Triple<N> offset) {
+  const Triple<N> across = s.across - offset;
+  const N d = square_root(dot(across, across) + s.height * s.height);
+  return pick(d > 1e-12, 1 / d, N(0));
+}
+
+/// From a place to the nearest point of the opening, m.
+inline double distance(const Opening& o, V3 place) {
+  const V3 d = place - o.center;
+  const double z = dot(o.normal, d);
+  const double beyond = norm(d - z * o.normal) - o.radius, out = beyond > 0 ? beyond : 0.0;
+  return std::sqrt(out * out + z * z);
 }
 
 /// The point of the segment from p to q that is nearest to the origin.
@@ -63,30 +77,56 @@ inline V3 nearest_to_origin(V3 p, V3 q) {
   return p + t * m;
 }
 
-/// 1 / sqrt(x), for x that is mostly next to 1: there without root and division, which wait for each other.
-inline double inverse_root(double x) {
-  const double d = x - 1;
-  if (!(std::fabs(d) < 1e-4)) return 1 / std::sqrt(x);
+/// 1 / sqrt(x) for x next to 1: without root and division, which wait for each other.
+template <class N>
+inline auto next_to_one(N x) {
+  return magnitude(x - 1) < 1e-4;
+}
+template <class N>
+inline N root_next_to_one(N x) {
+  const N d = x - 1;
   return 1 - d * (0.5 - d * (0.375 - d * (0.3125 - d * 0.2734375)));
 }
 
+/// 1 / sqrt(x), for x that is mostly next to 1.
+inline double inverse_root(double x) { return next_to_one(x) ? root_next_to_one(x) : 1 / std::sqrt(x); }
+
 /// The rim point c e, how the way changes along the rim there, and how near the neighbours are.
+template <class N>
 struct RimPoint {
-  V3 along;             ///< t
-  V3 pull;              ///< W
-  double slope, curve;  ///< t.W, and what it loses for a turn by one
-  double near;          ///< c (1/D_q + 1/D_r): how many times a turn by one is the distance to a neighbour
+  Triple<N> along;  ///< t
+  Triple<N> pull;   ///< W
+  N slope, curve;   ///< t.W, and what it loses for a turn by one
+  N near;           ///< c (1/D_q + 1/D_r): how many times a turn by one is the distance to a neighbour
 };
 
-inline RimPoint at_rim(const Opening& o, const Seen& q, const Seen& r, V3 e) {
-  const V3 t = cross(o.normal, e), p = o.radius * e;
-  const double iq = inverse_distance(q, p), ir = inverse_distance(r, p);
-  const V3 w = iq * q.across + ir * r.across;
-  const double tq = iq * dot(t, q.across), tr = ir * dot(t, r.across);
+template <class N>
+inline RimPoint<N> at_rim(const OpeningOf<N>& o, const SeenAs<N>& q, const SeenAs<N>& r, Triple<N> e) {
+  const Triple<N> t = cross(o.normal, e), p = o.radius * e;
+  const N iq = inverse_distance(q, p), ir = inverse_distance(r, p);
+  const Triple<N> w = iq * q.across + ir * r.across;
+  const N tq = iq * dot(t, q.across), tr = ir * dot(t, r.across);
   return {t, w, dot(t, w), dot(e, w) - o.radius * (tq * tq * iq + tr * tr * ir), o.radius * (iq + ir)};
 }
 
 constexpr double close_turn = 1e-3;  // Newton squares it
+
+/// Newton's step from a rim point to where the way has no slope.
+template <class N>
+struct NewtonTurn {
+  Triple<N> to;              ///< the direction that it leads to
+  N square;                  ///< ... squared, next to 1
+  decltype(N() > N()) good;  ///< the way is convex in the angle here, and the step small
+  decltype(N() > N()) last;  ///< small enough
+};
+
+template <class N>
+inline NewtonTurn<N> newton_turn(const RimPoint<N>& p, Triple<N> e) {
+  const N turn = p.slope / p.curve;
+  return {e + turn * p.along, 1 + turn * turn,
+          p.curve > 0.1 * magnitude(dot(e, p.pull)) && magnitude(p.slope) < p.curve,
+          magnitude(turn) * (1 + p.near) < close_turn};
+}
 
 /// Turns the unit in-plane vector e to where the way over the rim point c e has no slope. Newton's method
 /// where the way is convex in the angle, else the angle that Weiszfeld's rule gives (no step of it makes the
@@ -94,11 +134,11 @@ constexpr double close_turn = 1e-3;  // Newton squares it
 inline bool turn_on_rim(const Opening& o, const Seen& q, const Seen& r, V3& e) {
   constexpr int most_turns = 12;
   for (int i = 0; i < most_turns; ++i) {
-    const RimPoint p = at_rim(o, q, r, e);
-    if (p.curve > 0.1 * std::fabs(dot(e, p.pull)) && std::fabs(p.slope) < p.curve) {
-      const double turn = p.slope / p.curve;
-      e = inverse_root(1 + turn * turn) * (e + turn * p.along);
-      if (std::fabs(turn) * (1 + p.near) < close_turn) return true;
+    const RimPoint<double> p = at_rim(o, q, r, e);
+    const NewtonTurn<double> turn = newton_turn(p, e);
+    if (turn.good) {
+      e = inverse_root(turn.square) * turn.to;
+      if (turn.last) return true;
     } else {
       const double length = norm(p.pull);
       if (!(length > 0)) return false;
@@ -116,7 +156,7 @@ inline bool turn_on_rim(const Opening& o, const Seen& q, const Seen& r, V3& e) {
   const double sine = cosine < 1 ? std::sqrt(1 - cosine * cosine) : 0.0;
   V3 low = cosine * middle - sine * side, high = cosine * middle + sine * side, e = middle;
   for (double last = 2 * sine; last > 1e-14;) {
-    const RimPoint p = at_rim(o, q, r, e);
+    const RimPoint<double> p = at_rim(o, q, r, e);
     (p.slope > 0 ? low : high) = e;
     const double turn = p.curve > 0 ? p.slope / p.curve : 2.0;
     const V3 newton = (1 / std::sqrt(1 + turn * turn)) * (e + turn * p.along), half = low + high;
@@ -154,21 +194,76 @@ inline Passage passage_within(const Opening& o, const Seen& q, const Seen& r, V3
   return {rim_point(o, q, r, nearest, 1, (1 / std::sqrt(out2)) * nearest), false};
 }
 
+/// A vector that points where a search on the rim begins.
+template <class N>
+struct FirstDirection {
+  Triple<N> along;
+  N square;                      ///< its own
+  decltype(N() > N()) by_guess;  ///< then next to 1
+};
+
+/// The last waypoint on the rim is a good guess, if it is one and lies on the side to which the way leads: x.
+template <class N>
+inline FirstDirection<N> first_direction(const OpeningOf<N>& o, Triple<N> guess, Triple<N> x) {
+  const N inverse = 1 / o.radius;
+  const Triple<N> flat = guess - dot(o.normal, guess) * o.normal;
+  const Triple<N> e = inverse * flat;
+  const N size2 = dot(e, e);
+  const auto good = size2 > 0.8 && dot(e, x) > 0;
+  return {pick(good, e, x), pick(good, size2, dot(x, x)), good};
+}
+
+/// Where the way would meet the plane of the opening if it could.
+template <class N>
+struct Crossing {
+  SeenAs<N> q, r;
+  Triple<N> x;               ///< the place in the plane times `sum`
+  N sum;                     ///< of both heights, m
+  decltype(N() > N()) over;  ///< the rim
+};
+
+template <class N>
+inline Crossing<N> crossing(const OpeningOf<N>& o, const NeighbourOf<N>& from, const NeighbourOf<N>& to) {
+  const SeenAs<N> q = seen_from(o, from), r = seen_from(o, to);
+  const N sum = q.height + r.height, limit = o.radius * sum;
+  const Triple<N> x = r.height * q.across + q.height * r.across;
+  return {q, r, x, sum, sum > 0 && dot(x, x) > limit * limit};
+}
+
 /// The waypoint that makes the way from q to r shortest; `guess` is an offset to begin with, of any size.
 inline Passage shortest_passage(const Opening& o, const Neighbour& from, const Neighbour& to, V3 guess) {
-  const Seen q = seen_from(o, from), r = seen_from(o, to);
-  const double sum = q.height + r.height, limit = o.radius * sum;
-  const V3 x = r.height * q.across + q.height * r.across;  // times the sum
-  const double out2 = dot(x, x);
-  if (!(sum > 0) || !(out2 > limit * limit)) return passage_within(o, q, r, x, sum);
-  // the last waypoint on the rim is a good guess, if it is one and lies on the side to which the way leads
-  const double inverse = 1 / o.radius;
-  const V3 flat = guess - dot(o.normal, guess) * o.normal;
-  const V3 e = inverse * flat;
-  const double size2 = dot(e, e);
-  const bool good = size2 > 0.8 && dot(e, x) > 0;
-  const V3 first = good ? inverse_root(size2) * e : (1 / std::sqrt(out2)) * x;
-  return {rim_point(o, q, r, x, sum, first), false};
+  const Crossing<double> c = crossing(o, from, to);
+  if (!c.over) return passage_within(o, c.q, c.r, c.x, c.sum);
+  const FirstDirection<double> first = first_direction(o, guess, c.x);
+  const double root = first.by_guess ? inverse_root(first.square) : 1 / std::sqrt(first.square);
+  return {rim_point(o, c.q, c.r, c.x, c.sum, root * first.along), false};
+}
+
+// The rings of one element: in rounds, waypoint after waypoint is moved to where it makes the way shortest.
+// Each round shortens a function that is convex in all of them. A waypoint that stays behind by e makes the
+// length wrong by e^2 over that of a leg, but forces by e: they act like friction.
+constexpr double way_close = 1e-5;  ///< of the first opening's radius: so near waypoints come to their places
+
+/// Whether a round that moved waypoints by up to `change`, the one before it by up to `last`, was the last
+/// one. Rounds change less and less at about the same ratio: what is left is the sum of all to come.
+template <class N>
+inline auto at_rest(N change, N last, N close) {
+  return change <= close || (change < last && change * change <= close * (last - change));
+}
+
+/// A straight piece of a way.
+template <class N>
+struct LegOf {
+  Triple<N> unit;  ///< its direction
+  N length;        ///< m
+};
+using Leg = LegOf<double>;
+
+template <class N>
+inline LegOf<N> leg(Triple<N> from, Triple<N> to, As<N> lift2) {
+  const Triple<N> d = to - from;
+  const N length = square_root(dot(d, d) + lift2);
+  return {pick(length > 1e-12, 1 / length, N(0)) * d, length};  // as inverse_distance has it
 }
 
 }  // namespace cinch::CINCH_ISA

@@ -29,216 +29,23 @@
 #include "kernels/kernel_table.hpp"
 #include "kernels/ring_body.hpp"
 #include "kernels/ring_tally.hpp"
-#include "kernels/shortest_path.hpp"
+#include "kernels/sliding_ways.hpp"
 
 namespace cinch::CINCH_ISA {
 namespace {
 
-using kernel::JointState;
 using kernel::RingTally;
-using kernel::SlidingArguments;
-using kernel::SlidingThread;
-
-// Where a ring is and how it moves.
-struct Host {
-  Opening opening;
-  V3 velocity, turn;      // m/s; dN/dt before projection, 1/s: zero for a ring with a node of its own
-  double inverse_length;  // of the host, 1/m; zero for a ring with a node of its own
-};
-
-// A straight piece of a way.
-struct Leg {
-  V3 unit;        // its direction
-  double length;  // m
-};
-
-// The way through the rings of one element.
-struct Way {
-  Leg before_it;  // from the last waypoint (or node) to the joint's
-  // of the first joint in an element:
-  Leg last, direct;              // from the last waypoint to the node; from node to node
-  double length;                 // of the whole way, m
-  double damper, direct_damper;  // forces of the dampers along both, N
-  bool straight;                 // leads straight from node to node
-  bool idle;                     // its rings change nothing of its pull
-};
-
-// What a call works on, for each joint.
-struct Work {
-  Host host;
-  Way way;
-  V3 force;         // on the ring, N
-  JointState old;   // as it stood before nodes passed
-  JointState kept;  // as it stood before a passing was tried
-  Way kept_way;
-};
-static_assert(sizeof(Work) <= kernel::sliding_scratch * sizeof(double));
-
-inline V3 vec(const double (&v)[3]) { return {v[0], v[1], v[2]}; }
-
-inline void put(V3 v, double (&to)[3]) { to[0] = v.x, to[1] = v.y, to[2] = v.z; }
 
 // Where forces go.
 struct SlidingWriter {
   LoadWriter threads, hosts;
 };
 
-inline V3 place_ahead(const SlidingArguments& g, Index node) {
-  const kernel::ContactArguments& c = g.contact;
-  return at(c.x, c.y, c.z, node) + g.ahead * at(c.vx, c.vy, c.vz, node);
-}
-
-// One thread in one step.
-struct Slide {
-  const SlidingArguments& g;
-  const SlidingThread& thread;
-  Work* work;  // joint
-
-  JointState& state(Index j) const { return g.states[j]; }
-  Index node(Index k) const { return g.nodes[thread.node_begin + k]; }
-  // g of axial_law.hpp for element k, straight and for a step between two evaluations.
-  double give(Index k) const {
-    const double* const ends = g.mobility + thread.node_begin + k;
-    return g.contact.step * g.contact.step * (ends[0] + ends[1]);
-  }
-  V3 place(Index k) const { return place_ahead(g, node(k)); }
-  V3 speed(Index k) const { return at(g.contact.vx, g.contact.vy, g.contact.vz, node(k)); }
-  V3 waypoint(Index j) const { return work[j].host.opening.center + vec(state(j).offset); }
-  // How much longer than its thread an element is, for a length of its way.
-  double stretch(double length) const {
-    return length > thread.rest_length ? length - thread.rest_length : 0.0;
-  }
-  // The first joint behind those that lie in the element of joint j.
-  Index behind(Index j) const {
-    const Index element = state(j).element;
-    while (j < thread.joint_end && state(j).element == element) ++j;
-    return j;
-  }
-  // Squared lift between two rings of one element.
-  double lift2(Index j) const {
-    const double lift = (work[j].host.opening.radius + work[j + 1].host.opening.radius) / 32;
-    return lift * lift;
-  }
-};
-
-inline Host host_of(const SlidingArguments& g, const kernel::Joint& joint) {
-  const kernel::ContactArguments& c = g.contact;
-  const V3 xa = place_ahead(g, joint.host_a), va = at(c.vx, c.vy, c.vz, joint.host_a);
-  if (joint.host_a == joint.host_b) return {{xa, vec(joint.normal), joint.opening}, va, {0, 0, 0}, 0};
-  const V3 xb = place_ahead(g, joint.host_b), vb = at(c.vx, c.vy, c.vz, joint.host_b);
-  const V3 along = xb - xa;
-  const double length = norm(along), inverse = length > 0 ? 1 / length : 0.0;
-  return {{0.5 * (xa + xb), inverse * along, joint.opening}, 0.5 * (va + vb), inverse * (vb - va), inverse};
-}
-
-// ---- the way through the rings of one element
-
-// Joints [first, last) in an element.
-struct Group {
-  Index element, first, last;
-};
-
-inline Leg leg(V3 from, V3 to, double lift2) {
-  const V3 d = to - from;
-  const double length = std::sqrt(dot(d, d) + lift2);
-  return {length > 1e-12 ? (1 / length) * d : V3{0, 0, 0}, length};  // as shortest_path.hpp has it
-}
-
-// One round over the waypoints of several joints; returns the greatest squared change of one.
-inline double round_of_waypoints(const Slide& s, const Group& group, V3 a, V3 b) {
-  double change = 0;
-  for (Index j = group.first; j < group.last; ++j) {
-    const Neighbour from = j == group.first ? Neighbour{a, 0} : Neighbour{s.waypoint(j - 1), s.lift2(j - 1)};
-    const Neighbour to = j + 1 == group.last ? Neighbour{b, 0} : Neighbour{s.waypoint(j + 1), s.lift2(j)};
-    const V3 old = vec(s.state(j).offset),
-             now = shortest_passage(s.work[j].host.opening, from, to, old).offset;
-    const V3 d = now - old;
-    put(now, s.state(j).offset);
-    change = dot(d, d) > change ? dot(d, d) : change;
-  }
-  return change;
-}
-
-// Waypoint after waypoint: each round shortens a function that is convex in all of them. A waypoint that
-// stays behind by e makes the length wrong by e^2 over that of a leg, but forces by e: they act like
-// friction.
-inline void find_waypoints(const Slide& s, const Group& group, V3 a, V3 b) {
-  constexpr int most_rounds = 1000;  // a dozen do, but where rings lie at one place at first
-  const double close = 1e-5 * s.work[group.first].host.opening.radius;
-  double last = 0;
-  for (int i = 0; i < most_rounds; ++i) {
-    // rounds change less and less at about the same ratio: what is left is the sum of all to come
-    const double change = std::sqrt(round_of_waypoints(s, group, a, b));
-    if (change <= close || (change < last && change * change <= close * (last - change))) break;
-    last = change;
-  }
-}
-
-// The length of the way through the rings' centres: never shorter than the shortest one.
-inline double length_by_centers(const Slide& s, const Group& group, V3 a, V3 b) {
-  V3 from = a;
-  double length = 0;
-  for (Index j = group.first; j < group.last; ++j) {
-    const V3 to = s.work[j].host.opening.center, d = to - from;
-    length += std::sqrt(dot(d, d) + (j == group.first ? 0.0 : s.lift2(j - 1)));
-    from = to;
-  }
-  return length + norm(b - from);
-}
-
-// Finds legs and length of a group from its waypoints.
-inline void measure_way(const Slide& s, const Group& group, V3 a, V3 b) {
-  Way& first = s.work[group.first].way;
-  first.direct = leg(a, b, 0);
-  V3 from = a;
-  double length = 0;
-  for (Index j = group.first; j < group.last; ++j) {
-    const V3 to = s.waypoint(j);
-    s.work[j].way.before_it = leg(from, to, j == group.first ? 0.0 : s.lift2(j - 1));
-    length += s.work[j].way.before_it.length;
-    from = to;
-  }
-  first.last = leg(from, b, 0);
-  first.length = first.straight ? first.direct.length : length + first.last.length;
-  if (first.straight) first.before_it.unit = first.last.unit = first.direct.unit;
-}
-
-// Whether the dampers of the last step took other than those of a straight element: then power is still due.
-inline bool owes_power(const Slide& s, const Group& group) {
-  const JointState& first = s.state(group.first);
-  return first.rings > 0 && first.damper != first.straight_damper;
-}
-
-// Finds the way of a group. In a step, nobody asks for that of one that is straight or, by the rings'
-// centres, slack: it pulls as without rings, and to lose one would free no energy.
-inline void find_way(const Slide& s, const Group& group) {
-  const V3 a = s.place(group.element), b = s.place(group.element + 1);
-  Way& first = s.work[group.first].way;
-  const bool may_idle = s.g.contact.dt > 0 && !owes_power(s, group);
-  first.straight = false;
-  first.idle = may_idle && length_by_centers(s, group, a, b) <= s.thread.rest_length;
-  if (first.idle) return;
-  if (group.last == group.first + 1) {
-    const Passage passage =
-        shortest_passage(s.work[group.first].host.opening, {a, 0}, {b, 0}, vec(s.state(group.first).offset));
-    put(passage.offset, s.state(group.first).offset);
-    first.straight = passage.straight;
-  } else {
-    find_waypoints(s, group, a, b);
-  }
-  first.idle = may_idle && first.straight;
-  if (!first.idle) measure_way(s, group, a, b);
-}
-
 // ---- nodes that pass
 
 inline double length_of(const Slide& s, const Group& group) {
   if (group.first < group.last && !s.work[group.first].way.idle) return s.work[group.first].way.length;
   return norm(s.place(group.element + 1) - s.place(group.element));
-}
-
-inline Group group_of(const Slide& s, Index first) {
-  return {s.state(first).element, first, s.behind(first)};
 }
 
 // The joints of the elements beside that of a group.
@@ -256,7 +63,7 @@ inline Group last_group(const Slide& s, const Group& group) {
 inline double least_length(const Slide& s, Index element, Index j) {
   const V3 a = s.place(element), b = s.place(element + 1);
   const Opening& o = s.work[j].host.opening;
-  const double way = norm(a - o.center) + norm(b - o.center) - 2 * o.radius, straight = norm(b - a);
+  const double way = distance(o, a) + distance(o, b), straight = norm(b - a);
   return way > straight ? way : straight;
 }
 
@@ -273,35 +80,38 @@ struct Passing {
   Index last() const { return onward() ? to.last : from.last; }
 };
 
-// The stretches of both elements after the passing, as one number whose square the energy goes with; takes
-// the passing.
-inline double pass(const Slide& s, const Passing& p) {
-  for (Index i = p.first(); i < p.last(); ++i)
-    s.work[i].kept = s.state(i), s.work[i].kept_way = s.work[i].way;
+// Lets the ring pass. Returns false, and leaves it half done, if the element that it enters is no shorter
+// than `limit`, or if the stretches of both, of whose squares the energy goes with the sum, are no less than
+// `now`.
+inline bool pass(const Slide& s, const Passing& p, double limit, double now) {
   s.state(p.j).element = p.to.element;
   const Group left = p.left(), entered = p.entered();
+  if (!find_way(s, entered, limit)) return false;
   if (left.first < left.last) find_way(s, left);
-  find_way(s, entered);
   const double out = s.stretch(length_of(s, left)), in = s.stretch(length_of(s, entered));
-  return std::sqrt(out * out + in * in);
-}
-
-inline void take_back(const Slide& s, const Passing& p) {
-  for (Index i = p.first(); i < p.last(); ++i)
-    s.state(i) = s.work[i].kept, s.work[i].way = s.work[i].kept_way;
+  return std::sqrt(out * out + in * in) < now;
 }
 
 // Takes the passing if it lowers the energy.
 bool try_passing(const Slide& s, const Passing& p) {
-  const double out = s.stretch(length_of(s, p.from));
-  if (!(out > s.stretch(s.work[p.from.first].way.direct.length))) return false;  // it would free nothing
-  const double in = s.stretch(length_of(s, p.to)), now = std::sqrt(out * out + in * in);
-  if (s.stretch(least_length(s, p.to.element, p.j)) >= now) return false;
-  if (pass(s, p) < now) {
+  const double out = s.stretch(length_of(s, p.from)),
+               least = s.stretch(s.work[p.from.first].way.direct.length);
+  if (!(out > least)) return false;  // it would free nothing
+  const double in = s.stretch(length_of(s, p.to)), now = out * out + in * in;
+  const V3 far = s.place(p.onward() ? p.to.element + 1 : p.to.element) - s.work[p.j].host.opening.center;
+  const double reach = s.thread.rest_length + out + in + s.work[p.j].host.opening.radius;
+  if (dot(far, far) >= reach * reach) return false;  // as most do
+  // the element that it leaves stays at least as long as a straight one
+  const double limit = s.thread.rest_length + std::sqrt(now - least * least);
+  if (least_length(s, p.to.element, p.j) >= limit) return false;
+  for (Index i = p.first(); i < p.last(); ++i)
+    s.work[i].kept = s.state(i), s.work[i].kept_way = s.work[i].way;
+  if (pass(s, p, limit, std::sqrt(now))) {
     ++s.state(p.j).passes;
     return true;
   }
-  take_back(s, p);
+  for (Index i = p.first(); i < p.last(); ++i)
+    s.state(i) = s.work[i].kept, s.work[i].way = s.work[i].kept_way;
   return false;
 }
 
@@ -520,14 +330,9 @@ void load_passing_thread(const Slide& s, Beyond& beyond, SlidingWriter& out) {
 
 // ---- a step
 
-// Waypoints, passings and forces of one thread. Without a step (dt = 0) no node passes.
-void slide_thread(const SlidingArguments& g, const SlidingThread& thread, SlidingWriter& out) {
-  const Slide s{g, thread, reinterpret_cast<Work*>(g.scratch)};
-  for (Index j = thread.joint_begin; j < thread.joint_end; ++j) {
-    s.work[j].host = host_of(g, g.joints[j]);
-    s.work[j].force = {0, 0, 0};
-  }
-  for (Index j = thread.joint_begin; j < thread.joint_end; j = s.behind(j)) find_way(s, group_of(s, j));
+// Passings and forces of one thread. Without a step (dt = 0) no node passes.
+void slide_thread(const SlidingArguments& g, const SlidingThread& thread, Work* work, SlidingWriter& out) {
+  const Slide s{g, thread, work};
   for (Index j = thread.joint_begin; j < thread.joint_end; ++j) s.work[j].old = s.state(j);
   Beyond beyond;
   if (g.contact.dt > 0 && pass_nodes(s)) load_passing_thread(s, beyond, out);
@@ -538,8 +343,7 @@ void slide_thread(const SlidingArguments& g, const SlidingThread& thread, Slidin
     keep_dampers(s, group_of(s, j));
 }
 
-void note_forces(const SlidingArguments& g) {
-  const Work* const work = reinterpret_cast<const Work*>(g.scratch);
+void note_forces(const SlidingArguments& g, const Work* work) {
   const auto for_each_tally = [&](auto&& visit) {
     for (Index t = 0; t < g.thread_count; ++t)
       for (Index j = g.threads[t].joint_begin; j < g.threads[t].joint_end; ++j)
@@ -551,14 +355,26 @@ void note_forces(const SlidingArguments& g) {
   for_each_tally([&](RingTally& tally, V3) { note_force(tally, norm(vec(tally.force)), g.contact.time); });
 }
 
+void set_hosts(const SlidingArguments& g, Work* work) {
+  for (Index t = 0; t < g.thread_count; ++t)
+    for (Index j = g.threads[t].joint_begin; j < g.threads[t].joint_end; ++j) {
+      work[j].host = host_of(g, g.joints[j]);
+      work[j].force = {0, 0, 0};
+    }
+}
+
 void sliding_joints(const SlidingArguments& g, kernel::Load* on_threads, kernel::Load* on_hosts) {
+  WayLanes* const lanes = reinterpret_cast<WayLanes*>(g.scratch);
+  Work* const work = reinterpret_cast<Work*>(g.scratch + kernel::sliding_scratch);
+  set_hosts(g, work);
+  find_ways(g, work, lanes);
   SlidingWriter out{{on_threads}, {on_hosts}};
   for (Index t = 0; t < g.thread_count; ++t) {
-    slide_thread(g, g.threads[t], out);
+    slide_thread(g, g.threads[t], work, out);
     g.ends[t] = {static_cast<Index>(out.threads.next - on_threads),
                  static_cast<Index>(out.hosts.next - on_hosts)};
   }
-  note_forces(g);
+  note_forces(g, work);
 }
 
 }  // namespace
