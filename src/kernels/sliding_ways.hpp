@@ -31,7 +31,8 @@ class WayQueue {
   }
 
  private:
-  static constexpr int worth_lanes = 3;  // measured: two are found sooner one after the other
+  // measured: one or two are found sooner one after the other, and with narrow registers any number
+  static constexpr int worth_lanes = native_lanes > 2 ? 3 : way_lanes + 1;
 
   struct Waiting {
     Index thread;
