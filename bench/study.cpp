@@ -1,9 +1,12 @@
 // Error against run time, on one thread: cinch_study FOLDER [--full|--trial] writes study.json and study.csv.
 //
-// The reference of a problem is the mean of its finest runs; how far they lie apart is its own error.
+// The reference of a problem is its exact solution, or else the mean of its finest runs, whose distance from
+// each other is its own error.
+#include <algorithm>
 #include <chrono>
 #include <cstdio>
 #include <cstring>
+#include <future>
 
 #include "base/error.hpp"
 #include "study_result.hpp"
@@ -29,24 +32,12 @@ Measured measure_once(const Problem& problem, const Scene& scene) {
     const double begin = seconds();
     sim.advance_to(std::llround(problem.end * s / problem.samples / out.step));
     out.seconds += seconds() - begin;
+    out.track.times.push_back(sim.time());
     out.track.samples.push_back(problem.sample(sim));
   }
   out.seconds /= problem.end;
   out.residual = sim.summary().relative_residual;
   return out;
-}
-
-// The fastest of some runs: what else the machine does only adds.
-Measured measure(const Problem& problem, const Setting& setting) {
-  const Scene scene = problem.scene(setting);
-  Measured best = measure_once(problem, scene);
-  double spent = best.seconds * problem.end;
-  for (int i = 0; i < 9 && spent < 0.3; ++i) {
-    const Measured again = measure_once(problem, scene);
-    spent += again.seconds * problem.end;
-    best.seconds = std::min(best.seconds, again.seconds);
-  }
-  return best;
 }
 
 Track mean(const std::vector<Track>& tracks) {
@@ -59,15 +50,96 @@ Track mean(const std::vector<Track>& tracks) {
   return sum;
 }
 
+// All runs of a setting, of each as many as the problem wants.
+struct Sweep {
+  std::vector<Track> tracks;
+  double step = 0, seconds = 0, residual = 0;  // medians of the last two
+};
+
+double median(std::vector<double> values) {
+  std::sort(values.begin(), values.end());
+  return values[values.size() / 2];
+}
+
+Measured measure_run(const Problem& problem, Scene scene, int run) {
+  if (problem.perturb) problem.perturb(scene, run);
+  return measure_once(problem, scene);
+}
+
+// Where their time counts, runs follow each other.
+Sweep measure(const Problem& problem, const Setting& setting, bool timed) {
+  const Scene scene = problem.scene(setting);
+  std::vector<std::future<Measured>> runs;
+  for (int r = 0; r < problem.runs; ++r)
+    runs.push_back(
+        std::async(timed ? std::launch::deferred : std::launch::async, measure_run, problem, scene, r));
+  Sweep sweep;
+  std::vector<double> times, residuals;
+  for (auto& run : runs) {
+    const Measured one = run.get();
+    sweep.tracks.push_back(one.track);
+    sweep.step = one.step;
+    times.push_back(one.seconds), residuals.push_back(one.residual);
+  }
+  sweep.seconds = median(times), sweep.residual = median(residuals);
+  return sweep;
+}
+
+// Where a setting has one run: the fastest of some, as what else the machine does only adds.
+double least_seconds(const Problem& problem, const Setting& setting, double first) {
+  double best = first, spent = first * problem.end;
+  for (int i = 0; i < 9 && spent < 0.3; ++i) {
+    const double again = measure_once(problem, problem.scene(setting)).seconds;
+    spent += again * problem.end;
+    best = std::min(best, again);
+  }
+  return best;
+}
+
+// What runs are compared with.
+struct Reference {
+  Track track;
+  double error = 0;  // its own
+};
+
+Reference reference_of(const Problem& problem) {
+  if (problem.exact) return {};
+  std::vector<Track> finest;
+  for (const Setting& setting : problem.reference)
+    finest.push_back(mean(measure(problem, setting, false).tracks));
+  Reference reference{mean(finest)};
+  for (const Track& track : finest)
+    reference.error = std::max(reference.error, problem.errors(track, reference.track).front().second);
+  return reference;
+}
+
+// The exact solution at a run's own times.
+Track exact_track(const Problem& problem, const std::vector<double>& times) {
+  Track track{times, {}};
+  for (const double time : times) track.samples.push_back(problem.exact(time));
+  return track;
+}
+
+// Errors of the mean, and by how much a run differs from it.
+Errors errors_of(const Problem& problem, const std::vector<Track>& tracks, const Track& reference) {
+  const Track found = mean(tracks);
+  Errors errors = problem.errors(found, problem.exact ? exact_track(problem, found.times) : reference);
+  if (tracks.size() == 1) return errors;
+  std::vector<double> apart;
+  for (const Track& track : tracks) apart.push_back(problem.errors(track, found).front().second);
+  errors.emplace_back("one_run_from_the_mean", median(apart));
+  return errors;
+}
+
 RunResult run(const Problem& problem, const Setting& setting, const Track& reference) {
   RunResult result;
   result.setting = setting;
   try {
-    const Measured found = measure(problem, setting);
+    const Sweep found = measure(problem, setting, true);
     result.step = found.step;
-    result.errors = problem.errors(found.track, reference);
+    result.errors = errors_of(problem, found.tracks, reference);
     result.residual = found.residual;
-    result.seconds = found.seconds;
+    result.seconds = problem.runs > 1 ? found.seconds : least_seconds(problem, setting, found.seconds);
     std::printf("  %-48s %4d elements  error %8.4f %%  %9.3g s/s  residual %.1e%s\n",
                 setting.series().c_str(), setting.elements, 100 * result.error(), result.seconds,
                 result.residual, setting.papers ? "  the paper's choice" : "");
@@ -82,18 +154,14 @@ RunResult run(const Problem& problem, const Setting& setting, const Track& refer
 
 ProblemResult study(const Problem& problem) {
   std::printf("%s: %s\n", problem.name.c_str(), problem.title.c_str());
-  std::vector<Track> finest;
-  for (const Setting& setting : problem.reference)
-    finest.push_back(measure_once(problem, problem.scene(setting)).track);
-  const Track reference = mean(finest);
+  const Reference reference = reference_of(problem);
   ProblemResult result;
   result.problem = &problem;
-  for (const Track& track : finest)
-    result.reference_error =
-        std::max(result.reference_error, problem.errors(track, reference).front().second);
+  result.reference_error = reference.error;
   std::printf("  error: %s\n  the reference's own: %.4f %%\n", problem.measure.c_str(),
               100 * result.reference_error);
-  for (const Setting& setting : problem.settings) result.runs.push_back(run(problem, setting, reference));
+  for (const Setting& setting : problem.settings)
+    result.runs.push_back(run(problem, setting, reference.track));
   return result;
 }
 
@@ -123,8 +191,7 @@ int main(int argc, char** argv) {
   }
   try {
     const auto extent = full ? study::Extent::full : trial ? study::Extent::trial : study::Extent::usual;
-    std::vector<study::Problem> problems{study::ring_pull(extent)};
-    if (!trial) problems.push_back(study::net_closing(extent));
+    const std::vector<study::Problem> problems = study::problems(extent);
     std::vector<study::ProblemResult> results;
     for (const study::Problem& problem : problems) {
       results.push_back(study::study(problem));

@@ -35,6 +35,7 @@ Json problem_json(const ProblemResult& result) {
                {"title", result.problem->title},
                {"measure", result.problem->measure},
                {"reference_error", result.reference_error},
+               {"runs_of_each", result.problem->runs},
                {"runs", Json::array()},
                {"best", Json::array()},
                {"orders", Json::object()}};

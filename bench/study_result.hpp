@@ -2,7 +2,7 @@
 #pragma once
 #include <filesystem>
 
-#include "study_problem.hpp"
+#include "problem/problem.hpp"
 
 namespace cinch::study {
 

@@ -46,8 +46,8 @@ def precision(problem: Problem) -> Figure:
     papers = [_point(run) for run in runs if run["papers_choice"]]
     return Figure(
         f"Error against run time: {problem['title']}", _caption(problem), COMMAND,
-        ["method and step", "elements", "step, s", "error, %", "run time, s/s", "energy residual", "observed order",
-         "remark"],
+        ["method and step", "elements", "step, s", "error, %", "a run from the mean, %", "run time, s/s",
+         "energy residual", "observed order", "remark"],
         [_row(problem, run) for run in problem["runs"]],
         lines([Series("the paper's own choices", GREY, papers), *series],  # the first is drawn on top
               {"title": "run time per simulated second, s", "log": True}, {"title": "error, %", "log": True}))
@@ -59,8 +59,10 @@ def _point(run: dict[str, Any]) -> tuple[float | None, float | None]:
 
 def _row(problem: Problem, run: dict[str, Any]) -> Row:
     if "failure" in run:
-        return [run["series"], run["elements"], None, None, None, None, None, run["failure"]]
+        return [run["series"], run["elements"], None, None, None, None, None, None, run["failure"]]
+    apart = run["errors"].get("one_run_from_the_mean")  # where a problem is chaotic
     return [run["series"], run["elements"], run["step_s"], 100 * run["errors"]["error"],
+            None if apart is None else 100 * apart,
             run["seconds_per_simulated_second"], run["energy_residual"], problem["orders"].get(run["series"]),
             "the paper's choice" if run["papers_choice"] else ""]
 

@@ -187,7 +187,7 @@ const Section<Thread>& thread_section() {
           {{.name = "elements",
             .type = whole,
             .range = count,
-            .fallback = "8",
+            .fallback = "12",
             .by_method = {{"contact", "200"}, {"paper", "200"}},
             .meaning = "Number of elements.",
             .source = "1 % of error with sliding joints (bench/study); the paper's 200 a metre with contact. "

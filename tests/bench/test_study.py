@@ -18,25 +18,26 @@ STUDY = os.environ.get("CINCH_STUDY")
 
 @unittest.skipUnless(STUDY, "CINCH_STUDY names the program")
 class Study(unittest.TestCase):
-    problem: precision.Problem
-    runs: list[dict[str, Any]]
+    problems: dict[str, precision.Problem]
     table: list[dict[str, str]]
 
     @classmethod
     def setUpClass(cls) -> None:
         with tempfile.TemporaryDirectory() as folder:
             subprocess.run([str(STUDY), folder, "--trial"], capture_output=True, check=True)
-            (cls.problem,) = precision.read_study(Path(folder) / "study.json")
+            cls.problems = {problem["name"]: problem for problem in precision.read_study(Path(folder) / "study.json")}
             with (Path(folder) / "study.csv").open(encoding="utf-8") as file:
                 cls.table = list(csv.DictReader(file))
-        cls.runs = [run for run in cls.problem["runs"] if "errors" in run]
+
+    def runs(self, problem: str) -> list[dict[str, Any]]:
+        return [run for run in self.problems[problem]["runs"] if "errors" in run]
 
     def error(self, method: str, elements: int) -> float:
-        return next(run["errors"]["error"] for run in self.runs
+        return next(run["errors"]["error"] for run in self.runs("ring_pull")
                     if (run["method"], run["elements"]) == (method, elements))
 
     def test_a_run_that_stops_is_told_with_the_reason(self) -> None:
-        (stopped,) = (run for run in self.problem["runs"] if "errors" not in run)
+        (stopped,) = (run for run in self.problems["ring_pull"]["runs"] if "errors" not in run)
         self.assertEqual((stopped["method"], stopped["elements"]), ("contact", 25))
         self.assertIn("an impact too hard for the time step", stopped["failure"])
         (row,) = (row for row in self.table if row["failure"])
@@ -47,24 +48,46 @@ class Study(unittest.TestCase):
         self.assertGreater(self.error("contact", 50), 0.1)
         self.assertLess(self.error("contact", 100), self.error("contact", 50))
 
+    def test_a_thread_comes_to_its_exact_solution_at_second_order(self) -> None:
+        weight = self.problems["weight_on_a_thread"]
+        self.assertEqual(weight["reference_error"], 0)
+        self.assertEqual(len(weight["orders"]), 3)
+        for order in weight["orders"].values():
+            self.assertTrue(1.7 < order < 2.3, order)
+        for run in self.runs("weight_on_a_thread"):
+            if run["elements"] == 16:
+                self.assertLess(run["errors"]["error"], 0.005)
+
+    def test_chaotic_problems_are_told_by_means(self) -> None:
+        capture = self.problems["capture"]
+        self.assertEqual(capture["runs_of_each"], 3)
+        (run,) = self.runs("capture")
+        # launches 1e-5 apart: their flights differ by some of that, and by less than the error
+        self.assertTrue(0 < run["errors"]["one_run_from_the_mean"] < 1e-3)
+        self.assertLess(run["errors"]["one_run_from_the_mean"], run["errors"]["error"])
+
     def test_the_best_is_the_fastest_within_the_error(self) -> None:
-        for best in self.problem["best"]:
-            within = [run for run in self.runs if run["errors"]["error"] <= best["error"]]
-            runs = self.problem["runs"]
-            found = runs[best["run"]]["seconds_per_simulated_second"] if best["run"] is not None else None
-            self.assertEqual(found, min((run["seconds_per_simulated_second"] for run in within), default=None))
+        for problem in self.problems.values():
+            for best in problem["best"]:
+                within = [run for run in self.runs(problem["name"]) if run["errors"]["error"] <= best["error"]]
+                runs = problem["runs"]
+                found = runs[best["run"]]["seconds_per_simulated_second"] if best["run"] is not None else None
+                self.assertEqual(found, min((run["seconds_per_simulated_second"] for run in within), default=None))
 
     def test_the_table_says_the_same(self) -> None:
         rows = [row for row in self.table if not row["failure"]]
-        self.assertEqual([(row["series"], int(row["elements"])) for row in rows],
-                         [(run["series"], run["elements"]) for run in self.runs])
-        for row, run in zip(rows, self.runs):
+        runs = [(name, run) for name in self.problems for run in self.runs(name)]
+        self.assertEqual([(row["problem"], row["series"], int(row["elements"])) for row in rows],
+                         [(name, run["series"], run["elements"]) for name, run in runs])
+        for row, (_, run) in zip(rows, runs):
             self.assertTrue(math.isclose(float(row["error"]), run["errors"]["error"], rel_tol=1e-6))
 
     def test_the_page_draws_it(self) -> None:
-        (figure,) = precision.figures([self.problem])
-        self.assertEqual(len(figure.rows), len(self.problem["runs"]))
-        self.assertEqual({series["label"] for series in figure.chart["series"]}, {run["series"] for run in self.runs})
+        problems = list(self.problems.values())
+        for problem, figure in zip(problems, precision.figures(problems)):
+            self.assertEqual(len(figure.rows), len(problem["runs"]))
+            self.assertEqual({series["label"] for series in figure.chart["series"]},
+                             {run["series"] for run in self.runs(problem["name"])})
 
 
 if __name__ == "__main__":

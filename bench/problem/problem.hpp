@@ -12,7 +12,7 @@ namespace cinch::study {
 
 /// One way to compute a problem.
 struct Setting {
-  std::string method;          ///< "contact", "contact, paper's rules" or "sliding"
+  std::string method;          ///< "sliding", "contact", "contact, paper's rules", or "threads": no rings
   int elements = 0;            ///< of each thread that slides
   double step = 0;             ///< s; 0: `fraction` of the stable step
   double fraction = 0;         ///< of the stable step
@@ -23,6 +23,7 @@ struct Setting {
 
 /// What is compared, sample after sample; as many numbers in each.
 struct Track {
+  std::vector<double> times;  ///< s
   std::vector<std::vector<double>> samples;
 };
 
@@ -36,9 +37,16 @@ struct Problem {
   std::function<Scene(const Setting&)> scene;
   std::function<std::vector<double>(Simulation&)> sample;
   std::function<Errors(const Track& found, const Track& reference)>
-      errors;                      ///< shares of 1, the first counts
-  std::vector<Setting> reference;  ///< whose mean is the reference
+      errors;  ///< shares of 1, the first counts
+
+  std::function<std::vector<double>(double)> exact;  ///< sample at a time, s; without it:
+  std::vector<Setting> reference;                    ///< whose mean is the reference
   std::vector<Setting> settings;
+
+  /// Where a problem is chaotic, means over so many runs are compared, each begun a little apart from the
+  /// others.
+  int runs = 1;
+  std::function<void(Scene&, int run)> perturb;
 };
 
 /// How much of a problem is computed.
@@ -48,9 +56,18 @@ enum class Extent {
   full  ///< the finest runs with contact, too
 };
 
+/// A weight on a hanging thread, which swings up and down: exact.
+Problem weight_on_a_thread(Extent extent);
 /// Sec. 5.1: a thread pulls a ring.
 Problem ring_pull(Extent extent);
+/// Sec. 5.2: an edge of a hanging net is drawn together.
+Problem edge_closure(Extent extent);
 /// Sec. 5.3 without what is chaotic in it: the deployed net closes without a target.
 Problem net_closing(Extent extent);
+/// Sec. 5.3 as a whole.
+Problem capture(Extent extent);
+
+/// All of them; of the trial those that take no time.
+std::vector<Problem> problems(Extent extent);
 
 }  // namespace cinch::study

@@ -1,0 +1,71 @@
+#include "common.hpp"
+
+#include <algorithm>
+#include <cstdio>
+
+#include "input/case_reader.hpp"
+
+namespace cinch::study {
+
+const char* const papers_rules = "contact, paper's rules";
+
+Scene scene_of(const std::string& name, const Setting& setting, const std::function<void(Scene&)>& change) {
+  Scene scene = read_case(std::string(CINCH_SOURCE_DIR) + "/cases/" + name + ".toml");
+  if (change) change(scene);
+  const bool sliding = setting.method == "sliding";
+  for (Ring& ring : scene.rings) ring.joint = sliding ? RingJoint::sliding : RingJoint::contact;
+  if (setting.method == papers_rules) {
+    scene.contact.couple = RingCouple::paper;
+    scene.contact.distance = DistanceMethod::golden;
+    scene.contact.shared_node = SharedNode::paper;
+  }
+  for (Thread& thread : scene.threads) thread.elements = setting.elements;
+  scene.probes.clear();
+  scene.time.joint_steps = setting.joint_steps;
+  scene.time.step = setting.step;
+  if (!(setting.step > 0)) scene.time.step = setting.fraction * prepare(scene).stable_step;
+  return scene;
+}
+
+void add_series(std::vector<Setting>& to, const std::string& method, const std::vector<int>& elements,
+                double fraction, int joint_steps) {
+  for (const int n : elements) to.push_back({method, n, 0, fraction, false, joint_steps});
+}
+void add_papers_step(std::vector<Setting>& to, const std::string& method, const std::vector<int>& elements,
+                     const std::vector<int>& papers) {
+  for (const int n : elements)
+    to.push_back({method, n, 1e-6, 0, std::count(papers.begin(), papers.end(), n) > 0});
+}
+
+double distance(const std::vector<double>& a, const std::vector<double>& b, std::size_t first,
+                std::size_t last) {
+  double sum = 0;
+  for (std::size_t i = first; i < last; ++i) sum += (a[i] - b[i]) * (a[i] - b[i]);
+  return std::sqrt(sum);
+}
+
+double greatest(const Track& a, const Track& b, std::size_t first, std::size_t last) {
+  double most = 0;
+  for (std::size_t s = 0; s < a.samples.size(); ++s)
+    most = std::max(most, distance(a.samples[s], b.samples[s], first, last));
+  return most;
+}
+
+void append(std::vector<double>& to, const Vec3& place) {
+  to.insert(to.end(), {place.x(), place.y(), place.z()});
+}
+
+std::string Setting::series() const {
+  char words[40];
+  if (step > 0) std::snprintf(words, sizeof words, ", step %g s", step);
+  else std::snprintf(words, sizeof words, ", %g of the stable step", fraction);
+  return method + words + (joint_steps == 0 ? ", forces held" : "");
+}
+
+std::vector<Problem> problems(Extent extent) {
+  if (extent == Extent::trial) return {weight_on_a_thread(extent), ring_pull(extent), capture(extent)};
+  return {weight_on_a_thread(extent), ring_pull(extent), edge_closure(extent), net_closing(extent),
+          capture(extent)};
+}
+
+}  // namespace cinch::study

@@ -1,0 +1,28 @@
+// What the problems of the study have in common.
+#pragma once
+#include "problem.hpp"
+
+namespace cinch::study {
+
+extern const char* const papers_rules;  ///< the method of that name
+
+/// A case of the project's with a setting's threads, rings and step, and without probes; `change` comes
+/// first.
+Scene scene_of(const std::string& name, const Setting& setting,
+               const std::function<void(Scene&)>& change = {});
+
+/// Series of settings: with steps by fractions of the stable one, and with the paper's step.
+void add_series(std::vector<Setting>& to, const std::string& method, const std::vector<int>& elements,
+                double fraction, int joint_steps = 1);
+void add_papers_step(std::vector<Setting>& to, const std::string& method, const std::vector<int>& elements,
+                     const std::vector<int>& papers);
+
+/// Distance between places whose coordinates stand at [first, last) of two samples.
+double distance(const std::vector<double>& a, const std::vector<double>& b, std::size_t first,
+                std::size_t last);
+/// Its greatest value over all samples.
+double greatest(const Track& a, const Track& b, std::size_t first, std::size_t last);
+
+void append(std::vector<double>& to, const Vec3& place);
+
+}  // namespace cinch::study
