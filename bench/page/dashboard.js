@@ -14,7 +14,8 @@
   // On a logarithmic axis 1, 2 and 5 of each decade where there is room for them, else its first.
   function logTick(value, index, ticks) {
     const decades = Math.log10(ticks[ticks.length - 1].value / ticks[0].value);
-    const digit = Math.round(value / 10 ** Math.floor(Math.log10(value) + 1e-9));
+    const share = value / 10 ** Math.floor(Math.log10(value) + 1e-9), digit = Math.round(share);
+    if (Math.abs(share - digit) > 1e-6) return '';  // an end of the axis
     return digit === 1 || decades < 2.5 && (digit === 2 || digit === 5) ? short(value) : '';
   }
 
