@@ -58,9 +58,17 @@ CINCH_INLINE void group(const SpanView& s, std::ptrdiff_t number, Sums& sums) {
   const std::ptrdiff_t i = number * lanes;
   const double* const row =
       s.palette + kernel::palette_fields * lanes * static_cast<std::ptrdiff_t>(s.parameter[number]);
-  const Taut item = taut(relative(nodes(s, i), nodes(s, i + (chain ? 1 : s.step))), row);
-  const Forces f = force<damped, with_power(book), book == Book::power>(
-      item, row, _mm512_set1_pd(s.dt), with_power(book) ? s.damper + i : nullptr, sums.power);
+  double* const damper = with_power(book) ? s.damper + i : nullptr;
+  const Nodes a = nodes(s, i), b = nodes(s, i + (chain ? 1 : s.step));
+  const Axes apart{b.x - a.x, b.y - a.y, b.z - a.z};
+  if (idle(apart, row, damper)) {
+    const Forces none = no_pull(apart);
+    store(s.fx + i, none.x), store(s.fy + i, none.y), store(s.fz + i, none.z);
+    return;
+  }
+  const Taut item = taut(relative(a, b), row);
+  const Forces f = force<damped, with_power(book), book == Book::power>(item, row, _mm512_set1_pd(s.dt),
+                                                                        damper, sums.power);
   store(s.fx + i, f.x), store(s.fy + i, f.y), store(s.fz + i, f.z);
   if (with_energy(book)) sums.energy += _mm512_set1_pd(0.5) * load(row) * item.stretch * item.stretch;
 }
@@ -107,10 +115,39 @@ inline bool forces_of_group(const SpanView& s, std::ptrdiff_t number, GroupItems
   return spare < 0;
 }
 
+/// As axial_lanes.hpp has it: puts the forces of a group that idles, if it does.
+template <bool chain>
+inline bool idle(const SpanView& s, std::ptrdiff_t number, const double* damper) {
+  const double* __restrict const row =
+      s.palette + kernel::palette_fields * lanes * static_cast<std::ptrdiff_t>(s.parameter[number]);
+  const std::ptrdiff_t first = number * lanes, step = chain ? 1 : s.step;
+  double busy = 0;  // a whole number: its order does not matter
+#pragma omp simd reduction(+ : busy)
+  for (std::ptrdiff_t lane = 0; lane < lanes; ++lane) {
+    const std::ptrdiff_t i = first + lane, j = i + step;
+    const double rx = s.x[j] - s.x[i], ry = s.y[j] - s.y[i], rz = s.z[j] - s.z[i];
+    const double rest = row[2 * lanes + lane], rr = rx * rx + ry * ry + rz * rz;
+    busy += rr <= rest * rest ? 0.0 : 1.0;
+  }
+  if (busy > 0) return false;
+  if (damper) {
+#pragma omp simd reduction(+ : busy)
+    for (std::ptrdiff_t lane = 0; lane < lanes; ++lane) busy += damper[lane] != 0 ? 1.0 : 0.0;
+    if (busy > 0) return false;
+  }
+#pragma omp simd
+  for (std::ptrdiff_t lane = 0; lane < lanes; ++lane) {
+    const std::ptrdiff_t i = first + lane, j = i + step;
+    s.fx[i] = 0 * (s.x[j] - s.x[i]), s.fy[i] = 0 * (s.y[j] - s.y[i]), s.fz[i] = 0 * (s.z[j] - s.z[i]);
+  }
+  return true;
+}
+
 /// Elements that turn taut or slack are few and cost roots and divisions: a group that may have some is
 /// computed anew.
 template <bool damped, Book::Sum book, bool chain>
 inline void group(const SpanView& s, std::ptrdiff_t number, Sums& sums) {
+  if (idle<chain>(s, number, with_power(book) ? s.damper + number * lanes : nullptr)) return;
   GroupItems items;
   if (forces_of_group<damped, chain, false>(s, number, items)) [[unlikely]]
     forces_of_group<damped, chain, true>(s, number, items);

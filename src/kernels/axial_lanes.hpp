@@ -36,9 +36,28 @@ struct Taut {
   Group rx, ry, rz, rv, stretch, inverse;
 };
 
-struct Forces {
+/// Along the three axes.
+struct Axes {
   Group x, y, z;
 };
+using Forces = Axes;
+
+/// Whether no element of a group pulls and, with the last forces of its dampers at `damper`, none has power
+/// to book: then it needs no root and no division. The root of fl(rest^2) is `rest`: what is not longer by
+/// its square is not longer.
+CINCH_INLINE bool idle(const Axes& apart, const double* palette, const double* damper) {
+  const Group rest = load(palette + 2 * kernel::lanes);
+  const Group square = apart.x * apart.x + apart.y * apart.y + apart.z * apart.z;
+  if (_mm512_cmp_pd_mask(square, rest * rest, _CMP_NLE_UQ) != 0) return false;
+  const __m512i bits = damper ? _mm512_castpd_si512(load(damper)) : _mm512_setzero_si512();
+  return _mm512_test_epi64_mask(bits, bits) == 0;
+}
+
+/// The forces of such a group, to the last bit.
+CINCH_INLINE Forces no_pull(const Axes& apart) {
+  const Group zero = _mm512_setzero_pd();
+  return {zero * apart.x, zero * apart.y, zero * apart.z};
+}
 
 CINCH_INLINE Relative relative(const Nodes& a, const Nodes& b) {
   Relative r;

@@ -5,6 +5,9 @@
 // window of instructions is shorter than both together. So a turn of the loop finishes one group, divides for
 // the next and takes the root for the one behind: none waits for another. bench/README.md has what that gave.
 //
+// Groups whose elements are all slack need neither; the chain's first ones are passed by as long as they are
+// such, which in a net that flies is all of them.
+//
 // axial_law.hpp and node_update.cpp are the reference; the operations on each number and their order are
 // theirs, and so are the bits.
 #include <cstddef>
@@ -46,6 +49,13 @@ struct Chain {
   CINCH_INLINE Nodes nodes(std::ptrdiff_t group) const {
     const std::ptrdiff_t i = group * lanes;
     return {load(x + i), load(y + i), load(z + i), load(u + i), load(v + i), load(w + i)};
+  }
+  /// Where the upper ends of a group's elements are to the lower ones.
+  CINCH_INLINE Axes apart(std::ptrdiff_t group) const {
+    const auto along = [i = group * lanes](const double* p) {
+      return upper(load(p + i), load(p + i + lanes)) - load(p + i);
+    };
+    return {along(x), along(y), along(z)};
   }
   CINCH_INLINE const double* row(std::ptrdiff_t group) const {
     return palette + kernel::palette_fields * lanes * static_cast<std::ptrdiff_t>(parameter[group]);
@@ -108,43 +118,71 @@ class LedgerRow {
   Index group_;
 };
 
-template <bool damped, bool power, bool gravity, bool watch, int terms>
-double update(const AxialArguments& g, const NodeArguments& n, const Span& span, const Stretch& stretch) {
-  const std::ptrdiff_t groups = span.groups;
-  const Chain c = chain(g, n, span);
-  const Others x = others(n.fx, stretch, n.gravity[0]), y = others(n.fy, stretch, n.gravity[1]),
-               z = others(n.fz, stretch, n.gravity[2]);
-  const Group dt = _mm512_set1_pd(n.dt);
-  // Nodes can be read up to the group behind the last one; what comes of them there is not used.
-  const auto upto = [groups](std::ptrdiff_t group) { return group < groups ? group : groups; };
-  const auto row = [&](std::ptrdiff_t group) { return c.row(group < groups ? group : groups - 1); };
-  Forces before{load(n.fx + span.force - lanes), load(n.fy + span.force - lanes),
-                load(n.fz + span.force - lanes)};
-  Group greatest = _mm512_setzero_pd();
-  LedgerRow ledger(g.booked, span, power);
-  double* const damper = power ? g.damper + span.parameter * lanes : nullptr;
-  const Nodes second = c.nodes(1);
-  Nodes next = c.nodes(upto(2));
-  Taut now = taut(relative(c.nodes(0), upper(c.nodes(0), second)), c.row(0));
-  Relative ahead = relative(second, upper(second, next));
-  for (std::ptrdiff_t k = 0; k < groups; ++k) {
-    const Nodes far = c.nodes(upto(k + 3));
-    const Relative behind = relative(next, upper(next, far));
-    const Taut soon = taut(ahead, row(k + 1));
+/// A chain on its way through its groups.
+template <bool power, bool gravity, bool watch, int terms>
+struct Walk {
+  const Chain c;
+  const Others x, y, z;
+  const Group dt;
+  Forces before;  ///< of the last group
+  Group greatest;
+  LedgerRow ledger;
+
+  /// Moves the nodes of a group, whose elements' forces are `here`.
+  CINCH_INLINE void move_group(std::ptrdiff_t k, const Forces& here, bool more) {
     const std::ptrdiff_t i = k * lanes;
-    const Forces here =
-        force<damped, power, power>(now, c.row(k), dt, power ? damper + i : nullptr, ledger.sum);
     const Group scale = load(c.scale + i);
     const Group u = move<gravity, terms>(c.x, c.u, i, here.x - lower(before.x, here.x), x, scale, dt);
     const Group v = move<gravity, terms>(c.y, c.v, i, here.y - lower(before.y, here.y), y, scale, dt);
     const Group w = move<gravity, terms>(c.z, c.w, i, here.z - lower(before.z, here.z), z, scale, dt);
     if (watch) greatest = _mm512_max_pd(u * u + v * v + w * w, greatest);
-    if (power) ledger.advance(k + 1 < groups);
-    before = here, now = soon, ahead = behind, next = far;
+    if (power) ledger.advance(more);
+    before = here;
+  }
+};
+
+template <bool damped, bool power, bool gravity, bool watch, int terms>
+double update(const AxialArguments& g, const NodeArguments& n, const Span& span, const Stretch& stretch) {
+  const std::ptrdiff_t groups = span.groups;
+  Walk<power, gravity, watch, terms> walk{
+      chain(g, n, span),
+      others(n.fx, stretch, n.gravity[0]),
+      others(n.fy, stretch, n.gravity[1]),
+      others(n.fz, stretch, n.gravity[2]),
+      _mm512_set1_pd(n.dt),
+      {load(n.fx + span.force - lanes), load(n.fy + span.force - lanes), load(n.fz + span.force - lanes)},
+      _mm512_setzero_pd(),
+      LedgerRow(g.booked, span, power)};
+  const Chain& c = walk.c;
+  double* const damper = power ? g.damper + span.parameter * lanes : nullptr;
+  std::ptrdiff_t k = 0;
+  for (; k < groups; ++k) {  // as long as they idle: a flying net does
+    const Axes apart = c.apart(k);
+    if (!idle(apart, c.row(k), power ? damper + k * lanes : nullptr)) break;
+    walk.move_group(k, no_pull(apart), k + 1 < groups);
+  }
+  if (k < groups) {
+    // Nodes can be read up to the group behind the last one; what comes of them there is not used.
+    const auto upto = [groups](std::ptrdiff_t group) { return group < groups ? group : groups; };
+    const auto row = [&](std::ptrdiff_t group) { return c.row(group < groups ? group : groups - 1); };
+    const Nodes first = c.nodes(k), second = c.nodes(k + 1);
+    Nodes next = c.nodes(upto(k + 2));
+    Taut now = taut(relative(first, upper(first, second)), c.row(k));
+    Relative ahead = relative(second, upper(second, next));
+    for (; k < groups; ++k) {
+      const Nodes far = c.nodes(upto(k + 3));
+      const Relative behind = relative(next, upper(next, far));
+      const Taut soon = taut(ahead, row(k + 1));
+      const Forces here = force<damped, power, power>(now, c.row(k), walk.dt,
+                                                      power ? damper + k * lanes : nullptr, walk.ledger.sum);
+      walk.move_group(k, here, k + 1 < groups);
+      now = soon, ahead = behind, next = far;
+    }
   }
   const std::ptrdiff_t last = span.force + (groups - 1) * lanes;  // what the next node's stretch reads
+  const Forces& before = walk.before;
   store(g.fx + last, before.x), store(g.fy + last, before.y), store(g.fz + last, before.z);
-  return watch ? _mm512_reduce_max_pd(greatest) : 0;
+  return watch ? _mm512_reduce_max_pd(walk.greatest) : 0;
 }
 
 template <bool damped, bool power, bool gravity, bool watch>
