@@ -60,7 +60,7 @@ inline Group last_group(const Slide& s, const Group& group) {
 }
 
 // No way through ring j and from end to end of the element is shorter than this.
-inline double least_length(const Slide& s, Index element, Index j) {
+inline double least_through(const Slide& s, Index element, Index j) {
   const V3 a = s.place(element), b = s.place(element + 1);
   const Opening& o = s.work[j].host.opening;
   const double way = distance(o, a) + distance(o, b), straight = norm(b - a);
@@ -103,7 +103,7 @@ bool try_passing(const Slide& s, const Passing& p) {
   if (dot(far, far) >= reach * reach) return false;  // as most do
   // the element that it leaves stays at least as long as a straight one
   const double limit = s.thread.rest_length + std::sqrt(now - least * least);
-  if (least_length(s, p.to.element, p.j) >= limit) return false;
+  if (least_through(s, p.to.element, p.j) >= limit) return false;
   for (Index i = p.first(); i < p.last(); ++i)
     s.work[i].kept = s.state(i), s.work[i].kept_way = s.work[i].way;
   if (pass(s, p, limit, std::sqrt(now))) {
