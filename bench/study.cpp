@@ -1,11 +1,13 @@
 // Error against run time, on one thread: cinch_study FOLDER [--full|--trial] writes study.json and study.csv.
 //
-// The reference of a problem is its exact solution, or else the mean of its finest runs, whose distance from
-// each other is its own error.
+// The reference of a problem is its exact solution, or else the mean of its finest runs; how far they lie
+// from that is its own error.
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <cstdio>
 #include <cstring>
+#include <functional>
 #include <future>
 
 #include "base/error.hpp"
@@ -50,7 +52,7 @@ Track mean(const std::vector<Track>& tracks) {
   return sum;
 }
 
-// All runs of a setting, of each as many as the problem wants.
+// The runs of one setting: as many as the problem wants.
 struct Sweep {
   std::vector<Track> tracks;
   double step = 0, seconds = 0, residual = 0;  // medians of the last two
@@ -71,8 +73,8 @@ Sweep measure(const Problem& problem, const Setting& setting, bool timed) {
   const Scene scene = problem.scene(setting);
   std::vector<std::future<Measured>> runs;
   for (int r = 0; r < problem.runs; ++r)
-    runs.push_back(
-        std::async(timed ? std::launch::deferred : std::launch::async, measure_run, problem, scene, r));
+    runs.push_back(std::async(timed ? std::launch::deferred : std::launch::async, measure_run,
+                              std::cref(problem), scene, r));
   Sweep sweep;
   std::vector<double> times, residuals;
   for (auto& run : runs) {
@@ -120,7 +122,8 @@ Track exact_track(const Problem& problem, const std::vector<double>& times) {
   return track;
 }
 
-// Errors of the mean, and by how much a run differs from it.
+// Errors of the mean, by how much a run differs from it, and how uncertain that leaves the mean: as the mean
+// holds the run, the deviation is d sqrt(n / (n - 1)), that of the mean d / sqrt(n - 1).
 Errors errors_of(const Problem& problem, const std::vector<Track>& tracks, const Track& reference) {
   const Track found = mean(tracks);
   Errors errors = problem.errors(found, problem.exact ? exact_track(problem, found.times) : reference);
@@ -128,6 +131,7 @@ Errors errors_of(const Problem& problem, const std::vector<Track>& tracks, const
   std::vector<double> apart;
   for (const Track& track : tracks) apart.push_back(problem.errors(track, found).front().second);
   errors.emplace_back("one_run_from_the_mean", median(apart));
+  errors.emplace_back("uncertainty", median(apart) / std::sqrt(static_cast<double>(tracks.size() - 1)));
   return errors;
 }
 

@@ -57,10 +57,18 @@ void write_text(const std::filesystem::path& file, const std::string& text) {
 
 }  // namespace
 
+double RunResult::uncertainty() const {
+  for (const auto& [name, value] : errors)
+    if (name == "uncertainty") return value;
+  return 0;
+}
+
 const RunResult* best_within(const ProblemResult& result, double error) {
   const RunResult* best = nullptr;
   for (const RunResult& run : result.runs)
-    if (run.good() && run.error() <= error && (best == nullptr || run.seconds < best->seconds)) best = &run;
+    if (run.good() && run.error() + run.uncertainty() <= error &&
+        (best == nullptr || run.seconds < best->seconds))
+      best = &run;
   return best;
 }
 
@@ -74,6 +82,7 @@ std::vector<std::string> series_of(const ProblemResult& result) {
 
 double observed_order(const ProblemResult& result, const std::string& series) {
   double n = 0, x = 0, y = 0, xx = 0, xy = 0;
+  if (result.problem->runs > 1) return std::numeric_limits<double>::quiet_NaN();
   for (const RunResult& run : result.runs) {
     if (!run.good() || run.setting.series() != series || !(run.error() > 0)) continue;
     const double length = -std::log(run.setting.elements), error = std::log(run.error());

@@ -14,21 +14,22 @@ struct RunResult {
   double seconds = 0;   ///< of run time for one simulated second
   std::string failure;  ///< why there is no result; else empty
   double error() const { return errors.front().second; }
+  double uncertainty() const;  ///< of a mean over several runs, a share of 1; 0 for one run
   bool good() const { return failure.empty(); }
 };
 
 struct ProblemResult {
   const Problem* problem = nullptr;
-  double reference_error = 0;  ///< greatest error of a run of the reference against their mean
+  double reference_error = 0;  ///< greatest error of a setting of the reference against their mean
   std::vector<RunResult> runs;
 };
 
-/// The run that takes least time among those within `error`; null where there is none. An error below that of
-/// the reference is not told from zero.
+/// The run that takes least time among those within `error` for certain, null where there is none. An error
+/// below that of the reference is not told from zero.
 const RunResult* best_within(const ProblemResult& result, double error);
 
 /// Order of a series: slope of log error over log element length, by least squares; not a number for fewer
-/// than three runs.
+/// than three runs, or where means of chaotic runs are compared.
 double observed_order(const ProblemResult& result, const std::string& series);
 
 /// All different series, in their order.

@@ -42,9 +42,12 @@ struct Threads {
     const auto begin = static_cast<Index>(nodes.size()), first = static_cast<Index>(joints.size());
     nodes.push_back(add(a, dice.in_box(1)));
     nodes.push_back(add(b, dice.in_box(1)));
+    Vec3 last = a;
     for (int r = 0; r < rings; ++r) {
       const double share = (r + dice.between(0, 1)) / rings;
-      const Vec3 center = a + share * (b - a) + dice.in_box(dice.between(0, 1) < 0.2 ? 0.002 : 0.02);
+      Vec3 center = a + share * (b - a) + dice.in_box(dice.between(0, 1) < 0.2 ? 0.002 : 0.02);
+      if (r > 0 && dice.between(0, 1) < 0.2) center = last;  // two at one place
+      last = center;
       const Index host = add(center, dice.in_box(1));
       const Vec3 normal = dice.direction();
       const double opening = std::pow(10, dice.between(-3, -1.7));
@@ -122,7 +125,7 @@ void expect_the_same_alone(const Threads& threads, double dt) {
 
 TEST(WayLanes, FindWhatIsFoundAlone) {
   Dice dice(1);
-  for (int run = 0; run < 300; ++run) {
+  for (int run = 0; run < 1000; ++run) {
     Threads threads;
     const int count = 3 + run % 20;
     for (int t = 0; t < count; ++t)
@@ -167,6 +170,31 @@ TEST(WayLanes, LeaveFewWaysToBeFoundAlone) {
     for (int i = 0; i < plain::way_lanes; ++i) hard += lanes.hard[i] > 0;
   }
   EXPECT_LT(hard, runs * plain::way_lanes / 50);
+}
+
+// Whatever the width of registers: eight.hpp has a branch for each.
+TEST(WayLanes, PassOneRingAsShortestPassage) {
+  Dice dice(4);
+  plain::WayLanes lanes;
+  int rim = 0;
+  for (int run = 0; run < 200; ++run) {
+    for (int i = 0; i < plain::way_lanes; ++i) fill_lane(lanes, i, 1, dice);
+    std::vector<plain::Passage> alone;
+    for (int i = 0; i < plain::way_lanes; ++i) {
+      const auto& o = lanes.opening[0];
+      alone.push_back(shortest_passage(plain::Opening{at(o.center, i), at(o.normal, i), o.radius[i]},
+                                       {at(lanes.place[0], i), 0}, {at(lanes.end, i), 0}, {0, 0, 0}));
+    }
+    find_way_lanes(lanes);
+    for (int i = 0; i < plain::way_lanes; ++i) {
+      if (lanes.hard[i] > 0) continue;
+      const plain::V3 found = at(lanes.offset[0], i), right = alone[at(i)].offset;
+      ASSERT_TRUE(same_bits(found.x, right.x) && same_bits(found.y, right.y) && same_bits(found.z, right.z));
+      ASSERT_EQ(lanes.straight[i] > 0, alone[at(i)].straight);
+      rim += norm(found) > 0.999 * lanes.opening[0].radius[i];
+    }
+  }
+  EXPECT_GT(rim, 200);
 }
 
 // A node in the middle of the opening, whose direction from there is none.

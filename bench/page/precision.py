@@ -70,7 +70,9 @@ def _row(problem: Problem, run: dict[str, Any]) -> Row:
 def _caption(problem: Problem) -> str:
     """What the error is, and the fastest setting for each wanted one."""
     best = "; ".join(_best(problem, wanted) for wanted in problem["best"])
-    return (f"Lower left is better. Error: {problem['measure']}; the reference's own is "
+    runs = problem.get("runs_of_each", 1)  # more than one where a problem is chaotic
+    means = f", of means over {runs} runs that begin a little apart" if runs > 1 else ""
+    return (f"Lower left is better. Error: {problem['measure']}{means}; the reference's own is "
             f"{number(100 * problem['reference_error'])} %. Fastest: {best}.")
 
 

@@ -12,7 +12,7 @@ Problem edge_closure(Extent extent) {
   p.title = "An edge of a hanging net is drawn together (Sec. 5.2)";
   p.measure =
       "distance of the edge's knots from the reference, root of the mean square over knots and time, or the "
-      "greatest of a mass, of the net's side, of means over eight runs";
+      "greatest of a mass, of the net's side";
   p.end = 0.4;
   p.samples = 40;
   p.runs = 8;

@@ -5,7 +5,9 @@
 // stretch u = e x it is  u_s + sum a_n sin(k_n x) cos(c k_n t),  k_n L tan(k_n L) = m / M,  and
 //   a_n = (rho A int w sin(k_n x) dx + M w(L) sin(k_n L)) / (rho A int sin^2(k_n x) dx + M sin^2(k_n L)),
 // w = e x - u_s: the sines are orthogonal with the mass at the end. The thread stays taut.
+#include <array>
 #include <cmath>
+#include <cstdio>
 #include <numbers>
 
 #include "common.hpp"
@@ -59,23 +61,27 @@ double wave_number(int n, double ratio) {
   return 0.5 * (low + high);
 }
 
-// u of the weight.
-double exact(double time) {
+// u of the weight as a sum of swings.
+struct Swing {
+  double amplitude, frequency;  // m, rad/s
+};
+
+std::array<Swing, 400> swings() {  // amplitudes fall as 1 / n^3
   const double c2 = modulus / density;
   // w = b1 x + b2 x^2
   const double b1 = at_first / length - gravity * length / c2 - weight * gravity / (modulus * area);
   const double b2 = 0.5 * gravity / c2;
-  double sum = at_rest;
-  for (int n = 0; n < 400; ++n) {  // a_n falls as 1 / n^3
+  std::array<Swing, 400> all;
+  for (int n = 0; n < 400; ++n) {
     const double q = wave_number(n, own_mass / weight), k = q / length, s = std::sin(q), c = std::cos(q);
     const double x_sin = (s - q * c) / (k * k);
     const double x2_sin = (2 * q * s + (2 - q * q) * c - 2) / (k * k * k);
     const double above =
         density * area * (b1 * x_sin + b2 * x2_sin) + weight * (b1 * length + b2 * length * length) * s;
     const double below = density * area * 0.5 * (length - s * c / k) + weight * s * s;
-    sum += above / below * s * std::cos(std::sqrt(c2) * k * time);
+    all[static_cast<std::size_t>(n)] = {above / below * s, std::sqrt(c2) * k};
   }
-  return sum;
+  return all;
 }
 
 }  // namespace
@@ -92,7 +98,11 @@ Problem weight_on_a_thread(Extent extent) {
     const Look& now = sim.look();
     return std::vector<double>{now.position(now.assembly().node_of("thread.main.end")).x() - length};
   };
-  p.exact = [](double time) { return std::vector<double>{exact(time)}; };
+  p.exact = [all = swings()](double time) {
+    double u = at_rest;
+    for (const Swing& swing : all) u += swing.amplitude * std::cos(swing.frequency * time);
+    return std::vector<double>{u};
+  };
   p.errors = [](const Track& found, const Track& reference) {
     return Errors{{"error", greatest(found, reference, 0, 1) / at_rest}};
   };

@@ -190,7 +190,7 @@ const Section<Thread>& thread_section() {
             .fallback = "12",
             .by_method = {{"contact", "200"}, {"paper", "200"}},
             .meaning = "Number of elements.",
-            .source = "1 % of error with sliding joints (bench/study); the paper's 200 a metre with contact. "
+            .source = "about 1 % of error with sliding joints (bench/study); the paper's 200 a metre with contact. "
                       "`cinch check --error` tells what a case needs"},
            into(&Thread::elements)},
           {{.name = "points_m",

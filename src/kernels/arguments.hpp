@@ -8,10 +8,10 @@ namespace cinch::kernel {
 constexpr Index block_size = 2048;  ///< nodes that are computed and moved together, about
 constexpr Index grain = 128;        ///< nodes whose elements share one row of the ledger; whole groups
 constexpr Index lanes = 8;          ///< nodes and elements go in groups of so many, whatever the vector width
-constexpr Index ring_scratch = 3584;   ///< numbers that a batch of ring contacts works on
+constexpr Index ring_scratch = 3584;         ///< numbers that a batch of ring contacts works on
 constexpr Index sliding_scratch = 2 * 1328;  ///< numbers that a call for sliding joints works on
-constexpr Index joint_scratch = 88;            ///< ... and besides for each joint
-constexpr Index max_terms = 3;         ///< element forces on a node that one pass adds up, in pairs (+, -)
+constexpr Index joint_scratch = 88;          ///< ... and besides for each joint
+constexpr Index max_terms = 3;  ///< element forces on a node that one pass adds up, in pairs (+, -)
 
 /// Elements whose lower ends are the nodes of whole groups from `node` on; the upper ends lie `step` nodes
 /// further on. Lanes without element have void parameters and give zero force.
@@ -241,7 +241,9 @@ struct SlidingArguments {
   JointState* states;         ///< joint
   RingTally* const* tallies;  ///< ring: where it is booked, or null
   SlidingLoads* ends;         ///< thread: behind its loads
-  double* scratch;  ///< sliding_scratch numbers and joint_scratch a joint, which only a call knows
+  /// On a cache line: sliding_scratch numbers and joint_scratch a joint, of which only this call knows what
+  /// they mean.
+  double* scratch;
 };
 
 /// What one pair with a ball has felt, or a sum of such.

@@ -152,10 +152,12 @@ inline bool turn_on_rim(const Opening& o, const Seen& q, const Seen& r, V3& e) {
 /// step, else by halving the arc: comes to an end wherever the neighbours are.
 [[gnu::cold, gnu::noinline]] inline V3 search_rim(const Opening& o, const Seen& q, const Seen& r, V3 x,
                                                   double cosine) {
+  constexpr int most_halvings = 100;  // 50 do, but where a folded host gives no normal
   const V3 middle = (1 / norm(x)) * x, side = cross(o.normal, middle);
   const double sine = cosine < 1 ? std::sqrt(1 - cosine * cosine) : 0.0;
   V3 low = cosine * middle - sine * side, high = cosine * middle + sine * side, e = middle;
-  for (double last = 2 * sine; last > 1e-14;) {
+  double last = 2 * sine;
+  for (int i = 0; i < most_halvings && last > 1e-14; ++i) {
     const RimPoint<double> p = at_rim(o, q, r, e);
     (p.slope > 0 ? low : high) = e;
     const double turn = p.curve > 0 ? p.slope / p.curve : 2.0;

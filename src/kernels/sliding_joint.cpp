@@ -29,7 +29,7 @@
 #include "kernels/kernel_table.hpp"
 #include "kernels/ring_body.hpp"
 #include "kernels/ring_tally.hpp"
-#include "kernels/sliding_ways.hpp"
+#include "kernels/way_queue.hpp"
 
 namespace cinch::CINCH_ISA {
 namespace {
@@ -43,17 +43,17 @@ struct SlidingWriter {
 
 // ---- nodes that pass
 
-inline double length_of(const Slide& s, const Group& group) {
+inline double length_of(const Slide& s, const RingGroup& group) {
   if (group.first < group.last && !s.work[group.first].way.idle) return s.work[group.first].way.length;
   return norm(s.place(group.element + 1) - s.place(group.element));
 }
 
 // The joints of the elements beside that of a group.
-inline Group next_group(const Slide& s, const Group& group) {
+inline RingGroup next_group(const Slide& s, const RingGroup& group) {
   const bool filled = group.last < s.thread.joint_end && s.state(group.last).element == group.element + 1;
   return {group.element + 1, group.last, filled ? s.behind(group.last) : group.last};
 }
-inline Group last_group(const Slide& s, const Group& group) {
+inline RingGroup last_group(const Slide& s, const RingGroup& group) {
   Index first = group.first;
   while (first > s.thread.joint_begin && s.state(first - 1).element == group.element - 1) --first;
   return {group.element - 1, first, group.first};
@@ -69,13 +69,13 @@ inline double least_through(const Slide& s, Index element, Index j) {
 
 // Ring j, at the end of `from`, goes to `to`.
 struct Passing {
-  Group from, to;
+  RingGroup from, to;
   Index j;
   bool onward() const { return to.element > from.element; }
-  Group left() const {
+  RingGroup left() const {
     return {from.element, onward() ? from.first : from.first + 1, onward() ? j : from.last};
   }
-  Group entered() const { return {to.element, onward() ? j : to.first, onward() ? to.last : j + 1}; }
+  RingGroup entered() const { return {to.element, onward() ? j : to.first, onward() ? to.last : j + 1}; }
   Index first() const { return onward() ? from.first : to.first; }
   Index last() const { return onward() ? to.last : from.last; }
 };
@@ -85,7 +85,7 @@ struct Passing {
 // `now`.
 inline bool pass(const Slide& s, const Passing& p, double limit, double now) {
   s.state(p.j).element = p.to.element;
-  const Group left = p.left(), entered = p.entered();
+  const RingGroup left = p.left(), entered = p.entered();
   if (!find_way(s, entered, limit)) return false;
   if (left.first < left.last) find_way(s, left);
   const double out = s.stretch(length_of(s, left)), in = s.stretch(length_of(s, entered));
@@ -100,7 +100,9 @@ bool try_passing(const Slide& s, const Passing& p) {
   const double in = s.stretch(length_of(s, p.to)), now = out * out + in * in;
   const V3 far = s.place(p.onward() ? p.to.element + 1 : p.to.element) - s.work[p.j].host.opening.center;
   const double reach = s.thread.rest_length + out + in + s.work[p.j].host.opening.radius;
-  if (dot(far, far) >= reach * reach) return false;  // as most do
+  // the way there is no shorter than |far| less the opening, nor may it be than the rest length, out and in:
+  // a cheap forerunner of the test below, by which most go
+  if (dot(far, far) >= reach * reach) return false;
   // the element that it leaves stays at least as long as a straight one
   const double limit = s.thread.rest_length + std::sqrt(now - least * least);
   if (least_through(s, p.to.element, p.j) >= limit) return false;
@@ -118,7 +120,7 @@ bool try_passing(const Slide& s, const Passing& p) {
 // The first passing that lowers the energy.
 bool pass_one(const Slide& s) {
   for (Index first = s.thread.joint_begin; first < s.thread.joint_end;) {
-    const Group group = group_of(s, first);
+    const RingGroup group = group_of(s, first);
     if (!s.work[first].way.idle && s.stretch(s.work[first].way.length) > 0) {
       if (group.element + 1 < s.thread.elements &&
           try_passing(s, {group, next_group(s, group), group.last - 1}))
@@ -166,7 +168,7 @@ struct Pulls {
 
 // The first joint of a group, if its element had the same rings when joints were last evaluated in a step.
 // Else, as where a node has passed, dampers are booked as if they had pulled as now.
-inline const JointState* last_step(const Slide& s, const Group& group) {
+inline const JointState* last_step(const Slide& s, const RingGroup& group) {
   const JointState& first = s.state(group.first);
   return first.damped == group.element && first.rings == group.last - group.first ? &first : nullptr;
 }
@@ -176,7 +178,7 @@ struct Beyond {
   double energy = 0, storing = 0, taken = 0;  // J; W, of the energy; J, by dampers: see kernel::Book
 
   // Dampers take the mean of their forces, then and now, over what the length has changed.
-  void add(const Slide& s, const Group& group, const Pulls& pulls, double weight) {
+  void add(const Slide& s, const RingGroup& group, const Pulls& pulls, double weight) {
     energy += weight * (pulls.with.energy - pulls.without.energy);
     storing += weight * (pulls.with.storing - pulls.without.storing);
     const JointState* const before = last_step(s, group);
@@ -192,7 +194,7 @@ struct Beyond {
 };
 
 // The unit vector with which the way leaves the waypoint of joint j in `group`.
-inline V3 onward_direction(const Slide& s, const Group& group, Index j) {
+inline V3 onward_direction(const Slide& s, const RingGroup& group, Index j) {
   return j + 1 == group.last ? s.work[group.first].way.last.unit : s.work[j + 1].way.before_it.unit;
 }
 
@@ -201,7 +203,7 @@ inline V3 waypoint_velocity(const Host& host, V3 offset) {
   return host.velocity - dot(offset, host.turn) * host.opening.normal;
 }
 
-inline double length_rate(const Slide& s, const Group& group) {
+inline double length_rate(const Slide& s, const RingGroup& group) {
   V3 in = s.work[group.first].way.before_it.unit;
   double rate = -dot(in, s.speed(group.element));
   for (Index j = group.first; j < group.last; ++j) {
@@ -232,7 +234,7 @@ inline void load_ring(const Slide& s, Index j, V3 force, SlidingWriter& out) {
   out.hosts.add(joint.host_b, 0.5 * force + turn);
 }
 
-inline Pulls pulls_of(const Slide& s, const Group& group) {
+inline Pulls pulls_of(const Slide& s, const RingGroup& group) {
   Way& way = s.work[group.first].way;
   const double rate = dot(way.direct.unit, s.speed(group.element + 1) - s.speed(group.element));
   const double give = s.give(group.element);  // of both: a way may be straight. Rings give way, too, but less
@@ -242,7 +244,7 @@ inline Pulls pulls_of(const Slide& s, const Group& group) {
 }
 
 // Keeps the dampers' forces for the next step. Of an idle group those are known that are slack.
-void keep_dampers(const Slide& s, const Group& group) {
+void keep_dampers(const Slide& s, const RingGroup& group) {
   JointState& first = s.state(group.first);
   const Way& way = s.work[group.first].way;
   first.damped = group.element;
@@ -255,7 +257,7 @@ void keep_dampers(const Slide& s, const Group& group) {
 }
 
 // What a look wants to know of the rings of a group. Thread is stretched evenly between its nodes.
-void note_group(const Slide& s, const Group& group, const Pulls& pulls) {
+void note_group(const Slide& s, const RingGroup& group, const Pulls& pulls) {
   const double length = s.work[group.first].way.length, share = length > 0 ? 1 / length : 0.0;
   double way = 0;
   for (Index j = group.first; j < group.last; ++j) {
@@ -270,7 +272,7 @@ void note_group(const Slide& s, const Group& group, const Pulls& pulls) {
 }
 
 // Adds `weight` times the forces of a group, as its joints stand.
-void load_group(const Slide& s, const Group& group, double weight, Beyond& beyond, SlidingWriter& out) {
+void load_group(const Slide& s, const RingGroup& group, double weight, Beyond& beyond, SlidingWriter& out) {
   if (s.work[group.first].way.idle) return;
   const Pulls pulls = pulls_of(s, group);
   const double tension = pulls.with.tension;
@@ -297,7 +299,7 @@ Beyond beyond_straight(const Slide& s) {
   Beyond sum;
   for (Index j = s.thread.joint_begin; j < s.thread.joint_end; j = s.behind(j)) {
     if (s.work[j].way.idle) continue;
-    const Group group = group_of(s, j);
+    const RingGroup group = group_of(s, j);
     const Pulls pulls = pulls_of(s, group);
     sum.add(s, group, pulls, 1);
   }

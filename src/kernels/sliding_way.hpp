@@ -95,16 +95,16 @@ inline Host host_of(const SlidingArguments& g, const kernel::Joint& joint) {
 // ---- the way through the rings of one element
 
 // Joints [first, last) in an element.
-struct Group {
+struct RingGroup {
   Index element, first, last;
 };
 
-inline Group group_of(const Slide& s, Index first) {
+inline RingGroup group_of(const Slide& s, Index first) {
   return {s.state(first).element, first, s.behind(first)};
 }
 
 // One round over the waypoints of several joints; returns the greatest squared change of one.
-inline double round_of_waypoints(const Slide& s, const Group& group, V3 a, V3 b) {
+inline double round_of_waypoints(const Slide& s, const RingGroup& group, V3 a, V3 b) {
   double change = 0;
   for (Index j = group.first; j < group.last; ++j) {
     const Neighbour from = j == group.first ? Neighbour{a, 0} : Neighbour{s.waypoint(j - 1), s.lift2(j - 1)};
@@ -120,7 +120,7 @@ inline double round_of_waypoints(const Slide& s, const Group& group, V3 a, V3 b)
 
 // No way of a group is shorter than this. The length is convex in all waypoints: it lies above its tangent at
 // those that there are, which is least where each waypoint goes to the rim against its slope.
-inline double least_length(const Slide& s, const Group& group, V3 a, V3 b) {
+inline double least_length(const Slide& s, const RingGroup& group, V3 a, V3 b) {
   V3 from = a, in{0, 0, 0};
   double least = 0;
   for (Index j = group.first; j <= group.last; ++j) {
@@ -139,7 +139,7 @@ inline double least_length(const Slide& s, const Group& group, V3 a, V3 b) {
 }
 
 // Returns whether it came to an end: not if the way turned out to be no shorter than `limit`.
-inline bool find_waypoints(const Slide& s, const Group& group, V3 a, V3 b, double limit) {
+inline bool find_waypoints(const Slide& s, const RingGroup& group, V3 a, V3 b, double limit) {
   constexpr int most_rounds = 1000;  // a dozen do, but where rings lie at one place at first
   const double close = way_close * s.work[group.first].host.opening.radius;
   double last = 0;
@@ -153,7 +153,7 @@ inline bool find_waypoints(const Slide& s, const Group& group, V3 a, V3 b, doubl
 }
 
 // The length of the way through the rings' centres: never shorter than the shortest one.
-inline double length_by_centers(const Slide& s, const Group& group) {
+inline double length_by_centers(const Slide& s, const RingGroup& group) {
   V3 from = s.place(group.element);
   double length = 0;
   for (Index j = group.first; j < group.last; ++j) {
@@ -173,7 +173,7 @@ inline void set_way(Way& first, const Leg& direct, const Leg& last, double lengt
 }
 
 // Finds legs and length of a group from its waypoints.
-inline void measure_way(const Slide& s, const Group& group, V3 a, V3 b) {
+inline void measure_way(const Slide& s, const RingGroup& group, V3 a, V3 b) {
   Way& first = s.work[group.first].way;
   V3 from = a;
   double length = 0;
@@ -188,19 +188,19 @@ inline void measure_way(const Slide& s, const Group& group, V3 a, V3 b) {
 }
 
 // Whether the dampers of the last step took other than those of a straight element: then power is still due.
-inline bool owes_power(const Slide& s, const Group& group) {
+inline bool owes_power(const Slide& s, const RingGroup& group) {
   const JointState& first = s.state(group.first);
   return first.rings > 0 && first.damper != first.straight_damper;
 }
 
 // In a step, nobody asks for the way of a group that is straight or, by the rings' centres, slack: it pulls
 // as without rings, and to lose one would free no energy.
-inline bool may_idle(const Slide& s, const Group& group) {
+inline bool may_idle(const Slide& s, const RingGroup& group) {
   return s.g.contact.dt > 0 && !owes_power(s, group);
 }
 
 // Whether a group is idle by the rings' centres.
-inline bool rest_way(const Slide& s, const Group& group) {
+inline bool rest_way(const Slide& s, const RingGroup& group) {
   Way& first = s.work[group.first].way;
   first.straight = false;
   first.idle = may_idle(s, group) && length_by_centers(s, group) <= s.thread.rest_length;
@@ -209,7 +209,7 @@ inline bool rest_way(const Slide& s, const Group& group) {
 
 // Finds the way of a group that does not rest. Returns false, and leaves it half done, if it is no shorter
 // than `limit`.
-inline bool find_taut_way(const Slide& s, const Group& group, double limit = no_limit) {
+inline bool find_taut_way(const Slide& s, const RingGroup& group, double limit = no_limit) {
   const V3 a = s.place(group.element), b = s.place(group.element + 1);
   if (limit < no_limit && least_length(s, group, a, b) >= limit) return false;
   Way& first = s.work[group.first].way;
@@ -226,7 +226,7 @@ inline bool find_taut_way(const Slide& s, const Group& group, double limit = no_
   return true;
 }
 
-inline bool find_way(const Slide& s, const Group& group, double limit = no_limit) {
+inline bool find_way(const Slide& s, const RingGroup& group, double limit = no_limit) {
   return rest_way(s, group) || find_taut_way(s, group, limit);
 }
 

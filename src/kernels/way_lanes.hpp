@@ -24,12 +24,12 @@ struct WayLanes {
   Eights offset[lane_rings];  ///< of waypoints from the openings' centres, m: guesses; then as found
   Eights place[lane_rings + 2];
   Eight lift2[lane_rings + 1];  ///< from place to place, m^2: see shortest_path.hpp
-  Eights end;                   ///< the second node once more
+  Eights end;                   ///< the second node once more: its number among places differs
   Eight rings;                  ///< 0: a lane without an element
   // out
   LegOf<Eight> leg[lane_rings + 1], direct;  ///< from place to place; from node to node
   Eight length;                              ///< of all legs, m
-  Eight straight;                            ///< 1: leads straight through the last ring
+  Eight straight;                            ///< 1: leads straight through, if through one ring only
   Eight hard;                                ///< 1: what is said of this lane is void
 };
 

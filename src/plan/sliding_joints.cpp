@@ -29,7 +29,8 @@ void SlidingJoints::add_thread(const Model& model, std::size_t number, bool book
 void SlidingJoints::make_room(const Model& model) {
   states_.resize(joints_.size());
   tallies_.assign(model.rings.size(), nullptr);
-  scratch_.resize(at(kernel::sliding_scratch) + joints_.size() * at(kernel::joint_scratch));
+  if (!joints_.empty())
+    scratch_.resize(at(kernel::sliding_scratch) + joints_.size() * at(kernel::joint_scratch));
   on_threads_.resize(at(kernel::joint_thread_loads) * joints_.size());
   on_hosts_.resize(at(kernel::joint_loads - kernel::joint_thread_loads) * joints_.size());
   pushing_.resize(2 * joints_.size());

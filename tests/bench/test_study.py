@@ -61,7 +61,9 @@ class Study(unittest.TestCase):
     def test_chaotic_problems_are_told_by_means(self) -> None:
         capture = self.problems["capture"]
         self.assertEqual(capture["runs_of_each"], 3)
+        self.assertEqual(capture["orders"], {})
         (run,) = self.runs("capture")
+        self.assertIsNone(run["errors"]["contact_time"], "there is none before 0.2 s")
         # launches 1e-5 apart: their flights differ by some of that, and by less than the error
         self.assertTrue(0 < run["errors"]["one_run_from_the_mean"] < 1e-3)
         self.assertLess(run["errors"]["one_run_from_the_mean"], run["errors"]["error"])
@@ -69,7 +71,8 @@ class Study(unittest.TestCase):
     def test_the_best_is_the_fastest_within_the_error(self) -> None:
         for problem in self.problems.values():
             for best in problem["best"]:
-                within = [run for run in self.runs(problem["name"]) if run["errors"]["error"] <= best["error"]]
+                within = [run for run in self.runs(problem["name"])
+                          if run["errors"]["error"] + run["errors"].get("uncertainty", 0) <= best["error"]]
                 runs = problem["runs"]
                 found = runs[best["run"]]["seconds_per_simulated_second"] if best["run"] is not None else None
                 self.assertEqual(found, min((run["seconds_per_simulated_second"] for run in within), default=None))
@@ -84,8 +87,13 @@ class Study(unittest.TestCase):
 
     def test_the_page_draws_it(self) -> None:
         problems = list(self.problems.values())
-        for problem, figure in zip(problems, precision.figures(problems)):
+        figures = precision.figures(problems)
+        self.assertEqual(len(figures), len(problems))
+        for problem, figure in zip(problems, figures):
             self.assertEqual(len(figure.rows), len(problem["runs"]))
+            self.assertEqual("means over 3 runs" in figure.caption, problem["name"] == "capture")
+            apart = figure.headers.index("a run from the mean, %")
+            self.assertEqual(all(row[apart] is None for row in figure.rows), problem["name"] != "capture")
             self.assertEqual({series["label"] for series in figure.chart["series"]},
                              {run["series"] for run in self.runs(problem["name"])})
 

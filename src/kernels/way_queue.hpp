@@ -12,39 +12,44 @@ class WayQueue {
  public:
   WayQueue(const SlidingArguments& g, Work* work, WayLanes& lanes) : g_(g), work_(work), lanes_(lanes) {}
 
-  void add(Index thread, const Group& group) {
+  void add(Index thread, const RingGroup& group) {
     if (rest_way(slide(thread), group)) return;
     waiting_[count_++] = {thread, group};
     if (count_ == way_lanes) find();
   }
 
   void find() {
-    if (count_ < worth_lanes) {
+    if (wide && count_ >= worth_lanes) find_together();
+    else
       for (int i = 0; i < count_; ++i) find_alone(i);
-    } else {
-      for (int i = 0; i < count_; ++i) put_in(i);
-      for (int i = count_; i < way_lanes; ++i) lanes_.rings.put(i, 0);
-      find_way_lanes(lanes_);
-      for (int i = 0; i < count_; ++i) lanes_.hard[i] > 0 ? find_alone(i) : take_out(i);
-    }
     count_ = 0;
   }
 
  private:
   // measured: one or two are found sooner one after the other, and with narrow registers any number
-  static constexpr int worth_lanes = native_lanes > 2 ? 3 : way_lanes + 1;
+  static constexpr int worth_lanes = 3;
+  static constexpr bool wide = native_lanes > 2;
 
   struct Waiting {
     Index thread;
-    Group group;
+    RingGroup group;
   };
 
   Slide slide(Index thread) const { return {g_, g_.threads[thread], work_}; }
 
+  void find_together() {
+    if constexpr (wide) {
+      for (int i = 0; i < count_; ++i) put_in(i);
+      for (int i = count_; i < way_lanes; ++i) lanes_.rings.put(i, 0);
+      find_way_lanes(lanes_);
+      for (int i = 0; i < count_; ++i) lanes_.hard[i] > 0 ? find_alone(i) : take_out(i);
+    }
+  }
+
   void find_alone(int i) { find_taut_way(slide(waiting_[i].thread), waiting_[i].group); }
 
   void put_in(int i) {
-    const Group& group = waiting_[i].group;
+    const RingGroup& group = waiting_[i].group;
     const Slide s = slide(waiting_[i].thread);
     const V3 a = s.place(group.element), b = s.place(group.element + 1);
     const int rings = group.last - group.first;
@@ -67,7 +72,7 @@ class WayQueue {
   }
 
   void take_out(int i) {
-    const Group& group = waiting_[i].group;
+    const RingGroup& group = waiting_[i].group;
     const Slide s = slide(waiting_[i].thread);
     const WayLanes& l = lanes_;
     Way& first = s.work[group.first].way;
@@ -94,7 +99,7 @@ inline void find_ways(const SlidingArguments& g, Work* work, WayLanes* lanes) {
   for (Index t = 0; t < g.thread_count; ++t) {
     const Slide s{g, g.threads[t], work};
     for (Index j = s.thread.joint_begin; j < s.thread.joint_end; j = s.behind(j)) {
-      const Group group = group_of(s, j);
+      const RingGroup group = group_of(s, j);
       const Index rings = group.last - group.first;
       if (rings > lane_rings) find_way(s, group);
       else (rings == 1 ? alone : shared).add(t, group);
