@@ -58,7 +58,8 @@ struct Threads {
                         opening,
                         0,
                         0});
-      const Vec3 guess = dice.between(0, 1) < 0.5 ? Vec3::Zero() : Vec3(opening * dice.direction());
+      const Vec3 on_rim = opening * normal.cross(dice.direction()).normalized();  // if only by chance well
+      const Vec3 guess = dice.between(0, 1) < 0.3 ? Vec3::Zero() : on_rim;
       states.push_back({});
       for (int d = 0; d < 3; ++d) states.back().offset[d] = guess[d];
     }
