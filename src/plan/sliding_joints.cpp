@@ -149,6 +149,7 @@ kernel::SlidingArguments SlidingJoints::arguments(const NodeView& n, const StepP
 }
 
 void SlidingJoints::evaluate(const NodeView& nodes, const StepPlan& plan, std::int64_t step) {
+  if (empty()) return;  // another thread has them all
   const double held = plan.joint_steps * plan.dt;
   kernels_->sliding_joints(
       arguments(nodes, plan, static_cast<double>(step) * plan.dt, held, 0.5 * (held - plan.dt), held),
@@ -157,6 +158,7 @@ void SlidingJoints::evaluate(const NodeView& nodes, const StepPlan& plan, std::i
 
 // The last evaluation took nodes where they were (m - 1) / 2 steps later.
 void SlidingJoints::glance(const NodeView& nodes, const StepPlan& plan, std::int64_t step) {
+  if (empty()) return;
   const int hold = plan.joints_hold(step), steps = hold > 0 ? hold : plan.joint_steps;
   const double since = (steps - 0.5 * (plan.joint_steps - 1)) * plan.dt;
   kernels_->sliding_joints(arguments(nodes, plan, static_cast<double>(step) * plan.dt, 0, 0, since),
