@@ -118,6 +118,14 @@ TEST(ShortestPassage, EndsInThePlaneOrOnTheRimAreNoException) {
   }
 }
 
+// A ring whose host is folded to a point: the search once went round for ever.
+TEST(ShortestPassage, EndsWhereTheRingHasNoNormal) {
+  const plain::Opening opening{{0, 0, 0}, {0, 0, 0}, 0.0097};
+  const plain::Seen q{{-0.0444, 0.0459, 0.235}, 0, 0}, r{{-0.1882, 0.1779, -0.2876}, 0.00032, 0};
+  const plain::V3 x{-1.43e-5, 1.48e-5, 7.55e-5};
+  EXPECT_TRUE(vec(plain::search_rim(opening, q, r, x, 0.04)).allFinite());
+}
+
 // ---- forces of the kernel on a thread of its own
 
 struct Bench {  // a thread with rings, in arrays of its own

@@ -64,7 +64,6 @@ std::string Setting::series() const {
 }
 
 std::vector<Problem> problems(Extent extent) {
-  if (extent == Extent::trial) return {weight_on_a_thread(extent), ring_pull(extent), capture(extent)};
   return {weight_on_a_thread(extent), ring_pull(extent), edge_closure(extent), net_closing(extent),
           capture(extent)};
 }

@@ -67,7 +67,7 @@ Problem net_closing(Extent extent);
 /// Sec. 5.3 as a whole.
 Problem capture(Extent extent);
 
-/// All of them; of the trial those that take no time.
+/// All of them.
 std::vector<Problem> problems(Extent extent);
 
 }  // namespace cinch::study

@@ -38,12 +38,10 @@ class WayQueue {
   Slide slide(Index thread) const { return {g_, g_.threads[thread], work_}; }
 
   void find_together() {
-    if constexpr (wide) {
-      for (int i = 0; i < count_; ++i) put_in(i);
-      for (int i = count_; i < way_lanes; ++i) lanes_.rings.put(i, 0);
-      find_way_lanes(lanes_);
-      for (int i = 0; i < count_; ++i) lanes_.hard[i] > 0 ? find_alone(i) : take_out(i);
-    }
+    for (int i = 0; i < count_; ++i) put_in(i);
+    for (int i = count_; i < way_lanes; ++i) lanes_.rings.put(i, 0);
+    find_way_lanes(lanes_);
+    for (int i = 0; i < count_; ++i) lanes_.hard[i] > 0 ? find_alone(i) : take_out(i);
   }
 
   void find_alone(int i) { find_taut_way(slide(waiting_[i].thread), waiting_[i].group); }

@@ -16,10 +16,10 @@ namespace cinch {
 /// The elements that one group of rings or one ball can touch, in ascending order.
 struct ContactSet {
   // field                             meaning                                               unit   shape
-  std::vector<Index> parts;      // parts of the assembly: what makes two sets the same
-  std::vector<Index> elements;   // ascending
-  double thickest = 0;           // greatest thread radius                                m
-  double thinnest = 1e300;       // least thread radius                                   m
+  std::vector<Index> parts;        // parts of the assembly: what makes two sets the same
+  std::vector<Index> elements;     // ascending
+  double thickest = 0;             // greatest thread radius                                m
+  double thinnest = 1e300;         // least thread radius                                   m
   std::vector<double> fraction_a;  // 1 / degree of end a in the set; 0: the paper's rule   -      elements
   std::vector<double> fraction_b;  // ... of end b                                          -      elements
 };

@@ -58,6 +58,11 @@ class Study(unittest.TestCase):
             if run["elements"] == 16:
                 self.assertLess(run["errors"]["error"], 0.005)
 
+    def test_the_paper_s_cases_run_and_are_near_their_references(self) -> None:
+        for name in ("edge_closure", "net_closing", "capture"):
+            (run,) = self.runs(name)
+            self.assertTrue(0 < run["errors"]["error"] < 0.01, name)
+
     def test_chaotic_problems_are_told_by_means(self) -> None:
         capture = self.problems["capture"]
         self.assertEqual(capture["runs_of_each"], 3)
@@ -91,9 +96,10 @@ class Study(unittest.TestCase):
         self.assertEqual(len(figures), len(problems))
         for problem, figure in zip(problems, figures):
             self.assertEqual(len(figure.rows), len(problem["runs"]))
-            self.assertEqual("means over 3 runs" in figure.caption, problem["name"] == "capture")
+            chaotic = problem["name"] in ("capture", "edge_closure")
+            self.assertEqual(f"means over {problem['runs_of_each']} runs" in figure.caption, chaotic)
             apart = figure.headers.index("a run from the mean, %")
-            self.assertEqual(all(row[apart] is None for row in figure.rows), problem["name"] != "capture")
+            self.assertEqual(all(row[apart] is None for row in figure.rows), not chaotic)
             self.assertEqual({series["label"] for series in figure.chart["series"]},
                              {run["series"] for run in self.runs(problem["name"])})
 
