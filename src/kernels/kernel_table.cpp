@@ -17,6 +17,7 @@ namespace cinch {
   void fill_ring_body(KernelTable& table);     \
   void fill_node_update(KernelTable& table);   \
   void fill_energy(KernelTable& table);        \
+  void fill_free_flight(KernelTable& table);   \
   void fill(KernelTable& table) {              \
     fill_axial(table);                         \
     fill_ring_contact(table);                  \
@@ -25,6 +26,7 @@ namespace cinch {
     fill_ring_body(table);                     \
     fill_node_update(table);                   \
     fill_energy(table);                        \
+    fill_free_flight(table);                   \
   }                                            \
   }
 CINCH_DECLARE_ISA(base)

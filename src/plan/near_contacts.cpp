@@ -71,6 +71,13 @@ void NearContacts::wake(double motion) {
   awake_rings_ = static_cast<Index>(balls - awake_.begin());
 }
 
+double NearContacts::asleep_until() const {
+  double until = std::numeric_limits<double>::infinity();
+  if (awake_count_ > 0) return -until;
+  for (const double pair : asleep_) until = std::min(until, pair);
+  return until;
+}
+
 void NearContacts::evaluate(const NodeView& n, const StepPlan& plan, double time, double booked_dt,
                             double motion) {
   wake(motion);

@@ -38,6 +38,9 @@ class NearContacts {
   /// gone by. Books over `booked_dt` s (0: only what is of this moment). `loads` holds the forces then.
   void evaluate(const NodeView& nodes, const StepPlan& plan, double time, double booked_dt, double motion);
 
+  /// Motion up to which nothing is awake; what it takes that something was in the last step.
+  double asleep_until() const;
+
   const kernel::Load* loads() const { return loads_.data(); }
   Index load_count() const { return load_count_; }
   std::int64_t evaluated() const { return evaluated_; }  ///< pairs so far

@@ -354,6 +354,17 @@ void Piece::sweep(int steps, StageClock& clock) {
     }
 }
 
+double Piece::time_to_pull(double spare) const {
+  const auto works = [](double force) { return force != 0; };
+  for (const auto* dampers : {&damper_, &link_damper_})
+    if (std::any_of(dampers->begin(), dampers->end(), works)) return 0;
+  const ForceReduction& r = reduction_;
+  return kernels_.time_to_pull(axial_, r.spans.data(), static_cast<Index>(r.spans.size()), r.links.data(),
+                               static_cast<Index>(r.links.size()), 1 - spare);
+}
+
+void Piece::fly(Index steps) { kernels_.fly_freely[plan_.gravity](node_, numbering_.nodes(), steps); }
+
 // From now on, nodes of `out` move in place of this piece's; those of a piece that is not whole in its own
 // copy.
 void Piece::lend(Glance& out) {

@@ -34,6 +34,13 @@ static std::size_t touching_rings(const Model& model) {
   return count;
 }
 
+std::string StepPlan::flight_obstacle(const Model& model) const {
+  if (joints) return "rings slide on threads";
+  if (!model.constraints.empty()) return "nodes are held";
+  if (gravity && contacts()) return "the greatest speed changes with gravity";
+  return "";
+}
+
 std::vector<StageInfo> StepPlan::stages(const Model& model) const {
   const auto count = [](std::size_t n, const char* what) { return std::to_string(n) + " " + what; };
   std::vector<StageInfo> list;
@@ -67,6 +74,10 @@ std::vector<StageInfo> StepPlan::stages(const Model& model) const {
                   model.constraints.empty() ? "no fixed or guided node"
                                             : count(model.constraints.size(), "fixed or guided nodes")});
   list.push_back({"gather and move", true, count(static_cast<std::size_t>(model.nodes), "nodes")});
+  const std::string obstacle = flight_obstacle(model);
+  list.push_back(
+      {"free flight", obstacle.empty(),
+       obstacle.empty() ? "steps in which nothing pulls or touches at once, on one thread" : obstacle});
   list.push_back(
       {"energy ledger", ledger, ledger ? "dissipation summed every step" : "output.ledger = false"});
   return list;

@@ -29,6 +29,7 @@ struct StepPlan {
   double margin = 0;                        ///< m, 0: automatic
   double speed_limit = 0;                   ///< m/s
   bool allow_unstable = false;
+  bool fly = true;  ///< may do steps of free flight at once, see free_flight.hpp: changes no bit
   Vec3 gravity_acceleration = Vec3::Zero();  ///< m/s^2
 
   /// Only scenes in which something acts on nodes beside their elements go step by step and watch the
@@ -38,6 +39,8 @@ struct StepPlan {
   bool touches() const { return rings || balls; }
   /// Steps at `step` since the forces of sliding joints were last due; 0: they are.
   int joints_hold(std::int64_t step) const { return static_cast<int>((step - first_step) % joint_steps); }
+  /// Why nodes never fly freely (free_flight.hpp), whatever elements do; empty where they may.
+  std::string flight_obstacle(const Model& model) const;
   std::vector<StageInfo> stages(const Model& model) const;
 };
 

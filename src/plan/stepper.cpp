@@ -22,7 +22,9 @@ Stepper::Stepper(const Model& model, const StepPlan& plan, std::vector<double> n
       threads_(threads),
       node_share_(std::move(node_share)),
       contacts_(model, plan.margin) {
-  if (threads_ == 1) pieces_.push_back(std::make_unique<Piece>(model, plan_, node_share_));
+  if (threads_ > 1) return;
+  pieces_.push_back(std::make_unique<Piece>(model, plan_, node_share_));
+  if (plan_.fly && plan_.flight_obstacle(model).empty()) flight_.emplace(model, plan_);
 }
 
 // Deeper ghosts let threads meet less often, as long as they are few beside a thread's own nodes.
@@ -124,13 +126,37 @@ void Stepper::renew_contacts(State& state) {
   search_ += clock_seconds() - begin;
 }
 
+// In one step: two nodes approach each other by at most twice the greatest speed.
+double Stepper::approach(double greatest) const {
+  return 2 * contacts_.turning() * plan_.dt * std::sqrt(greatest);
+}
+
 void Stepper::judge(double greatest, Progress& p) const {
-  // two nodes approach each other by at most twice the greatest speed
-  const double approach = 2 * contacts_.turning() * plan_.dt * std::sqrt(greatest);
-  p.motion += approach;
+  const double approached = approach(greatest);
+  p.motion += approached;
   if (!(p.motion < contacts_.margin())) p.verdict = Verdict::renew_contacts;
-  if (approach > contacts_.longest_approach()) p.verdict = Verdict::look_closer;
+  if (approached > contacts_.longest_approach()) p.verdict = Verdict::look_closer;
   if (greatest > plan_.speed_limit * plan_.speed_limit) p.verdict = Verdict::unhealthy;
+}
+
+// Free flight, as many steps at once as elements and contacts allow; returns how many.
+std::int64_t Stepper::fly(State& state, std::int64_t most, Progress& p) {
+  const double wakes = plan_.contacts() ? pieces_[0]->contacts().asleep_until() : HUGE_VAL;
+  if (!(p.motion < wakes)) return 0;
+  std::int64_t steps = flight_->look(state, *pieces_[0], most);
+  if (steps > 0 && plan_.contacts()) {
+    const double greatest = flight_->greatest(), approached = approach(greatest);
+    if (approached > contacts_.longest_approach() || greatest > plan_.speed_limit * plan_.speed_limit)
+      return 0;
+    std::int64_t done = 0;
+    for (; done < steps && p.motion < wakes && p.motion < contacts_.margin(); ++done) p.motion += approached;
+    if (!(p.motion < contacts_.margin())) p.verdict = Verdict::renew_contacts;
+    steps = done;
+  }
+  if (steps > 0) pieces_[0]->fly(static_cast<Index>(steps));
+  flown_ += steps;
+  p.done += steps;
+  return steps;
 }
 
 double Stepper::move(Piece& piece, std::int64_t first, int steps, double motion, StageClock& clock) {
@@ -147,6 +173,10 @@ Stepper::Progress Stepper::run_thread(State& state, std::int64_t steps, int thre
   StageSeconds unread{};  // of the other threads
   while (from.done < steps && from.verdict == Verdict::go_on) {
     StageClock clock(from.windows++, thread == 0 ? sampled_ : unread);
+    if (flight_ && flight_->due() && fly(state, steps - from.done, from) > 0) {
+      clock.tick(StageId::gather_and_move);
+      continue;
+    }
     const int stretch = static_cast<int>(std::min<std::int64_t>(piece.levels(), steps - from.done));
     double greatest = move(piece, first + from.done, stretch, from.motion, clock);
     from.done += stretch;

@@ -8,6 +8,7 @@
 //   post      what other pieces have as ghosts, and the greatest speed
 //   meet      wait for their posts; every thread decides alike: go on, or leave the parallel region because the list
 //             of pairs may be used up or a speed is out of bounds
+// A scene on one thread does steps in which no element pulls and nothing touches at once (free_flight.hpp).
 // Without contacts a piece may do several steps between two meetings. What two pieces both need is computed by both,
 // in the same order as on one thread, so the bits do not depend on the threads.
 // clang-format on
@@ -16,6 +17,7 @@
 
 #include "plan/contact_list.hpp"
 #include "plan/exchange.hpp"
+#include "plan/free_flight.hpp"
 #include "plan/jumps.hpp"
 
 namespace cinch {
@@ -50,7 +52,8 @@ class Stepper {
   const StepPlan& plan() const { return plan_; }
   const ContactList& contacts() const { return contacts_; }
   int threads() const { return threads_; }
-  std::size_t memory_of_pieces() const;  ///< bytes, see memory.hpp
+  std::int64_t flown() const { return flown_; }  ///< steps that were done without forces, see free_flight.hpp
+  std::size_t memory_of_pieces() const;          ///< bytes, see memory.hpp
 
  private:
   enum class Verdict { go_on, renew_contacts, look_closer, unhealthy };
@@ -69,7 +72,9 @@ class Stepper {
   bool gather_dampers();
   void transfer_dampers(Archive& archive);
   void look_closer(const State& state);
+  double approach(double greatest) const;
   void judge(double greatest, Progress& progress) const;
+  std::int64_t fly(State& state, std::int64_t most, Progress& progress);
   Progress run(State& state, std::int64_t steps);
   Progress run_thread(State& state, std::int64_t steps, int thread, Progress from);
   double move(Piece& piece, std::int64_t first, int steps, double motion, StageClock& clock);
@@ -86,6 +91,8 @@ class Stepper {
   AlignedVector<double> dampers_;  ///< element: restored, and not yet handed to the pieces
   bool contacts_valid_ = false, healthy_ = true;
   std::optional<Jump> jump_;
+  std::optional<FreeFlight> flight_;  ///< where nodes may fly freely (one thread)
+  std::int64_t flown_ = 0;
   std::int64_t windows_ = 0;
   StageSeconds sampled_{};            ///< of the steps that were timed
   double stepping_ = 0, search_ = 0;  ///< s: all steps; broadphase
