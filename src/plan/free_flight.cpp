@@ -10,9 +10,8 @@ namespace {
 constexpr std::size_t at(Index i) { return static_cast<std::size_t>(i); }
 
 constexpr double spare = 1e-9;             ///< of an element's length, left over for what rounds off
-constexpr Index worth = 4;                 ///< steps that pay for a look
 constexpr std::int64_t longest = 1 << 20;  ///< steps
-constexpr int shortest_pause = 8, longest_pause = 256;  ///< steps: a jerk takes a dozen
+constexpr std::int64_t shortest_pause = 8, longest_pause = 256;  ///< steps: a jerk takes a dozen
 
 }  // namespace
 
@@ -35,18 +34,30 @@ double FreeFlight::reach(const State& s, double time) {
   return farthest + time * (std::sqrt(greatest) + fall);
 }
 
-Index FreeFlight::look(const State& state, const Piece& piece, std::int64_t most) {
+// Several pieces take the state anew for each look.
+static std::int64_t scale(const std::vector<std::unique_ptr<Piece>>& pieces) {
+  return pieces.size() > 1 ? 8 : 1;
+}
+
+Index FreeFlight::put_off(const Pieces& pieces) {
+  pause_ = pause_length_ = std::min(2 * pause_length_ + 1, scale(pieces) * longest_pause);
+  return 0;
+}
+
+Index FreeFlight::look(const State& state, const Pieces& pieces, std::int64_t most) {
   if (most < worth) return 0;
   constexpr double rounding = std::numeric_limits<double>::epsilon();
   const auto wanted = static_cast<double>(std::min(most, longest));
-  double steps = std::min(wanted, (1 - spare) * piece.time_to_pull(spare) / plan_.dt);
+  double steps = wanted;
+  for (const auto& piece : pieces)
+    steps = std::min(steps, (1 - spare) * piece->time_to_pull(spare) / plan_.dt);
   // in each step, places and speeds of an element's ends round off by half a unit along each axis
   if (steps >= worth)
     steps = std::min(steps, 0.25 * spare * shortest_ / (rounding * reach(state, steps * plan_.dt)));
-  const bool pays = steps >= worth;
-  pause_length_ = pays ? shortest_pause : std::min(2 * pause_length_ + 1, longest_pause);
+  if (steps < worth) return put_off(pieces);
+  pause_length_ = scale(pieces) * shortest_pause;
   pause_ = steps < wanted ? pause_length_ : 0;
-  return pays ? static_cast<Index>(steps) : 0;
+  return static_cast<Index>(steps);
 }
 
 }  // namespace cinch

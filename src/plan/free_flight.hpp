@@ -5,19 +5,28 @@
 // places of their nodes round off meanwhile, no step until then would have found a force: the bits are those
 // of single steps.
 #pragma once
+#include <memory>
+
 #include "plan/piece.hpp"
 
 namespace cinch {
 
 class FreeFlight {
+  using Pieces = std::vector<std::unique_ptr<Piece>>;
+
  public:
+  static constexpr std::int64_t worth = 4;  ///< steps that pay for a look
+
   FreeFlight(const Model& model, const StepPlan& plan);
 
-  /// Whether a look may be worth it now: looks that find something that pulls grow rare.
-  bool due() { return --pause_ < 0; }
-  /// For how many steps, at most `most`, nothing of a whole piece pulls from this state on, which it has
-  /// taken; 0 where that is too few.
-  Index look(const State& state, const Piece& piece, std::int64_t most);
+  /// Steps to do one by one before a look may be worth it: looks that find something that pulls grow rare.
+  std::int64_t pause() const { return pause_; }
+  void pass(std::int64_t steps) { pause_ -= steps; }
+  /// For how many steps, at most `most`, nothing pulls from this state on, which the pieces have taken; 0
+  /// where that is too few.
+  Index look(const State& state, const Pieces& pieces, std::int64_t most);
+  /// After what a look would not find: that something touches. Returns 0.
+  Index put_off(const Pieces& pieces);
   /// The greatest squared speed, as the look found it, m^2/s^2; without gravity it stays.
   double greatest() const { return greatest_; }
 
@@ -28,7 +37,7 @@ class FreeFlight {
   Index nodes_;
   double shortest_;  ///< element, m
   double greatest_ = 0;
-  int pause_ = 0, pause_length_ = 0;  ///< steps until the next look
+  std::int64_t pause_ = 0, pause_length_ = 0;
 };
 
 }  // namespace cinch

@@ -73,7 +73,6 @@ void NearContacts::wake(double motion) {
 
 double NearContacts::asleep_until() const {
   double until = std::numeric_limits<double>::infinity();
-  if (awake_count_ > 0) return -until;
   for (const double pair : asleep_) until = std::min(until, pair);
   return until;
 }

@@ -38,7 +38,7 @@ class NearContacts {
   /// gone by. Books over `booked_dt` s (0: only what is of this moment). `loads` holds the forces then.
   void evaluate(const NodeView& nodes, const StepPlan& plan, double time, double booked_dt, double motion);
 
-  /// Motion up to which nothing is awake; what it takes that something was in the last step.
+  /// Motion up to which nothing touches.
   double asleep_until() const;
 
   const kernel::Load* loads() const { return loads_.data(); }

@@ -55,10 +55,10 @@ class Piece {
   /// What one step from this state would add to the speeds of its own nodes; moves and books nothing. With
   /// several pieces `out` has its final size already.
   void glance(State& state, double motion, Glance& out);
-  /// Time for which no element of a whole piece would pull if nothing else did, s; 0 where one does. Elements
-  /// count as shorter than they are, by `spare` of their length.
+  /// Time for which none of its elements would pull if nothing else did, s; 0 where one does. They count as
+  /// shorter than they are, by `spare` of their length.
   double time_to_pull(double spare) const;
-  /// `steps` steps of a whole piece in which nothing pulls and nothing touches.
+  /// `steps` steps in which nothing pulls and nothing touches.
   void fly(Index steps);
   /// Appends the forces of contacts and joints on its own nodes as last evaluated, in the user's numbers.
   void append_loads(std::vector<kernel::Load>& loads) const;

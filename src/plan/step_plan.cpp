@@ -75,9 +75,8 @@ std::vector<StageInfo> StepPlan::stages(const Model& model) const {
                                             : count(model.constraints.size(), "fixed or guided nodes")});
   list.push_back({"gather and move", true, count(static_cast<std::size_t>(model.nodes), "nodes")});
   const std::string obstacle = flight_obstacle(model);
-  list.push_back(
-      {"free flight", obstacle.empty(),
-       obstacle.empty() ? "steps in which nothing pulls or touches at once, on one thread" : obstacle});
+  list.push_back({"free flight", obstacle.empty(),
+                  obstacle.empty() ? "steps in which nothing pulls or touches are done at once" : obstacle});
   list.push_back(
       {"energy ledger", ledger, ledger ? "dissipation summed every step" : "output.ledger = false"});
   return list;

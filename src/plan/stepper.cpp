@@ -22,8 +22,7 @@ Stepper::Stepper(const Model& model, const StepPlan& plan, std::vector<double> n
       threads_(threads),
       node_share_(std::move(node_share)),
       contacts_(model, plan.margin) {
-  if (threads_ > 1) return;
-  pieces_.push_back(std::make_unique<Piece>(model, plan_, node_share_));
+  if (threads_ == 1) pieces_.push_back(std::make_unique<Piece>(model, plan_, node_share_));
   if (plan_.fly && plan_.flight_obstacle(model).empty()) flight_.emplace(model, plan_);
 }
 
@@ -139,24 +138,32 @@ void Stepper::judge(double greatest, Progress& p) const {
   if (greatest > plan_.speed_limit * plan_.speed_limit) p.verdict = Verdict::unhealthy;
 }
 
-// Free flight, as many steps at once as elements and contacts allow; returns how many.
-std::int64_t Stepper::fly(State& state, std::int64_t most, Progress& p) {
-  const double wakes = plan_.contacts() ? pieces_[0]->contacts().asleep_until() : HUGE_VAL;
-  if (!(p.motion < wakes)) return 0;
-  std::int64_t steps = flight_->look(state, *pieces_[0], most);
-  if (steps > 0 && plan_.contacts()) {
+// Of all pieces; they have taken the state.
+double Stepper::asleep_until() const {
+  double until = HUGE_VAL;
+  for (const auto& piece : pieces_) until = std::min(until, piece->contacts().asleep_until());
+  return until;
+}
+
+// Free flight, as many steps at once as elements and contacts allow. Returns whether there were any.
+bool Stepper::fly(State& state, std::int64_t most, Progress& p) {
+  const double wakes = plan_.contacts() ? asleep_until() : HUGE_VAL;
+  std::int64_t steps = p.motion < wakes ? flight_->look(state, pieces_, most) : flight_->put_off(pieces_);
+  if (steps == 0) return false;
+  if (plan_.contacts()) {
     const double greatest = flight_->greatest(), approached = approach(greatest);
     if (approached > contacts_.longest_approach() || greatest > plan_.speed_limit * plan_.speed_limit)
-      return 0;
+      return false;
     std::int64_t done = 0;
     for (; done < steps && p.motion < wakes && p.motion < contacts_.margin(); ++done) p.motion += approached;
     if (!(p.motion < contacts_.margin())) p.verdict = Verdict::renew_contacts;
     steps = done;
   }
-  if (steps > 0) pieces_[0]->fly(static_cast<Index>(steps));
+#pragma omp parallel for num_threads(threads_) schedule(static, 1) if (threads_ > 1)
+  for (int t = 0; t < threads_; ++t) pieces_[at(t)]->fly(static_cast<Index>(steps));
   flown_ += steps;
   p.done += steps;
-  return steps;
+  return true;
 }
 
 double Stepper::move(Piece& piece, std::int64_t first, int steps, double motion, StageClock& clock) {
@@ -173,7 +180,7 @@ Stepper::Progress Stepper::run_thread(State& state, std::int64_t steps, int thre
   StageSeconds unread{};  // of the other threads
   while (from.done < steps && from.verdict == Verdict::go_on) {
     StageClock clock(from.windows++, thread == 0 ? sampled_ : unread);
-    if (flight_ && flight_->due() && fly(state, steps - from.done, from) > 0) {
+    if (flies_alone() && flight_->pause() <= 0 && fly(state, steps - from.done, from)) {
       clock.tick(StageId::gather_and_move);
       continue;
     }
@@ -186,15 +193,33 @@ Stepper::Progress Stepper::run_thread(State& state, std::int64_t steps, int thre
       clock.tick(StageId::meeting);
     }
     if (plan_.contacts()) judge(greatest, from);
+    if (flies_alone()) flight_->pass(stretch);
   }
   piece.give(state);
   return from;
 }
 
-// One parallel region over as many steps as possible.
+// Several threads look for free flight before they set out, and come back when the next look is due.
 Stepper::Progress Stepper::run(State& state, std::int64_t steps) {
-  const Progress from{0, windows_, motion_, Verdict::go_on};
+  Progress from{0, windows_, motion_, Verdict::go_on};
   if (threads_ == 1) return run_thread(state, steps, 0, from);
+  if (!flight_) return run_threads(state, steps, from);
+  if (flight_->pause() <= 0) {
+#pragma omp parallel for num_threads(threads_) schedule(static, 1)
+    for (int t = 0; t < threads_; ++t) pieces_[at(t)]->take(state);
+    if (fly(state, steps, from)) {
+      for (const auto& piece : pieces_) piece->give(state);
+      return from;
+    }
+  }
+  const std::int64_t stretch = std::min(std::max(flight_->pause(), FreeFlight::worth), steps);
+  const Progress reached = run_threads(state, stretch, from);
+  flight_->pass(reached.done);
+  return reached;
+}
+
+// One parallel region over as many steps as possible.
+Stepper::Progress Stepper::run_threads(State& state, std::int64_t steps, const Progress& from) {
   Progress reached = from;
 #pragma omp parallel num_threads(threads_)
   {

@@ -8,7 +8,7 @@
 //   post      what other pieces have as ghosts, and the greatest speed
 //   meet      wait for their posts; every thread decides alike: go on, or leave the parallel region because the list
 //             of pairs may be used up or a speed is out of bounds
-// A scene on one thread does steps in which no element pulls and nothing touches at once (free_flight.hpp).
+// Steps in which no element pulls and nothing touches are done at once (free_flight.hpp).
 // Without contacts a piece may do several steps between two meetings. What two pieces both need is computed by both,
 // in the same order as on one thread, so the bits do not depend on the threads.
 // clang-format on
@@ -74,8 +74,11 @@ class Stepper {
   void look_closer(const State& state);
   double approach(double greatest) const;
   void judge(double greatest, Progress& progress) const;
-  std::int64_t fly(State& state, std::int64_t most, Progress& progress);
+  double asleep_until() const;
+  bool fly(State& state, std::int64_t most, Progress& progress);
+  bool flies_alone() const { return threads_ == 1 && flight_; }
   Progress run(State& state, std::int64_t steps);
+  Progress run_threads(State& state, std::int64_t steps, const Progress& from);
   Progress run_thread(State& state, std::int64_t steps, int thread, Progress from);
   double move(Piece& piece, std::int64_t first, int steps, double motion, StageClock& clock);
 
@@ -91,7 +94,7 @@ class Stepper {
   AlignedVector<double> dampers_;  ///< element: restored, and not yet handed to the pieces
   bool contacts_valid_ = false, healthy_ = true;
   std::optional<Jump> jump_;
-  std::optional<FreeFlight> flight_;  ///< where nodes may fly freely (one thread)
+  std::optional<FreeFlight> flight_;  ///< where nodes may fly freely
   std::int64_t flown_ = 0;
   std::int64_t windows_ = 0;
   StageSeconds sampled_{};            ///< of the steps that were timed
