@@ -29,9 +29,9 @@ class ContactList {
   void transfer(Archive& archive, const Model& model);
 
   double margin() const { return margin_; }
-  /// Two surfaces come closer by at most so many times what the greatest speed tells: wires of rings turn
-  /// with the elements that carry them, which may be shorter than the rings.
-  double turning() const { return turning_; }
+  /// A ring and a thread come closer by at most so many times the way of the fastest node: wires of rings
+  /// turn with the elements that carry them, which may be shorter than the rings. Balls stand still.
+  double ring_approach() const { return 2 * turning_; }
   /// No pair that approaches by less within a step can pass through each other unnoticed, m.
   double longest_approach() const { return longest_approach_; }
   std::int64_t rebuilds() const { return rebuilds_; }

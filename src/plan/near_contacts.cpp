@@ -98,8 +98,10 @@ void NearContacts::evaluate(const NodeView& n, const StepPlan& plan, double time
                                         awake_count_ - awake_rings_, gap_.data() + awake_rings_,
                                         loads_.data() + load_count_);
   evaluated_ += awake_count_;
-  for (std::size_t i = 0; i < static_cast<std::size_t>(awake_count_); ++i)
-    asleep_[static_cast<std::size_t>(awake_[i])] = motion + gap_[i];
+  for (std::size_t i = 0; i < static_cast<std::size_t>(awake_count_); ++i) {
+    const double way = i < static_cast<std::size_t>(awake_rings_) ? 1.0 : contacts_.ring_approach;
+    asleep_[static_cast<std::size_t>(awake_[i])] = motion + way * gap_[i];
+  }
 }
 
 }  // namespace cinch

@@ -1,8 +1,8 @@
 // The contacts of one thread's nodes: which of the broadphase's pairs are worth a look in this step, and the
 // forces of those that touch.
 //
-// Two surfaces approach each other by at most twice the greatest speed, so a pair with a gap need not be
-// looked at until that much motion has gone by. Pairs sleep accordingly; those that could touch within a
+// The greatest speed tells how much two surfaces approach each other at most, so a pair with a gap need not
+// be looked at until that much motion has gone by. Pairs sleep accordingly; those that could touch within a
 // short window of motion are near and are evaluated every step. Sleeping pairs do not touch, so the forces
 // are those of all pairs.
 #pragma once
@@ -17,6 +17,7 @@ namespace cinch {
 struct LocalContacts {
   std::vector<kernel::Pair> pairs;
   Index ball_begin = 0;                          ///< first pair with a ball
+  double ring_approach = 2;                      ///< see ContactList: motion over the way of the fastest node
   std::vector<kernel::RingGeometry> rings;       ///< ring
   std::vector<kernel::RingTally*> ring_tallies;  ///< ring: null where another thread books it
   std::vector<double> centers;                   ///< ball x 3, m
@@ -34,8 +35,9 @@ class NearContacts {
   /// node_share by node.
   void renew(LocalContacts contacts, double margin, const double* share);
 
-  /// Evaluates the contacts at `time`, when `motion` (m, twice the summed greatest speed) of the margin has
-  /// gone by. Books over `booked_dt` s (0: only what is of this moment). `loads` holds the forces then.
+  /// Evaluates the contacts at `time`, when `motion` (m: by which rings and threads can have approached each
+  /// other) of the margin has gone by. Books over `booked_dt` s (0: only what is of this moment). `loads`
+  /// holds the forces then.
   void evaluate(const NodeView& nodes, const StepPlan& plan, double time, double booked_dt, double motion);
 
   /// Motion up to which nothing touches.

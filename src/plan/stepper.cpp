@@ -125,9 +125,9 @@ void Stepper::renew_contacts(State& state) {
   search_ += clock_seconds() - begin;
 }
 
-// In one step: two nodes approach each other by at most twice the greatest speed.
+// By which two surfaces come closer in one step, at most, m.
 double Stepper::approach(double greatest) const {
-  return 2 * contacts_.turning() * plan_.dt * std::sqrt(greatest);
+  return contacts_.ring_approach() * plan_.dt * std::sqrt(greatest);
 }
 
 void Stepper::judge(double greatest, Progress& p) const {
