@@ -11,7 +11,8 @@ namespace {
 constexpr std::int64_t batch = 500;
 
 void solver(benchmark::State& state, const Features& has) {
-  Simulation simulation(net_scene(absent_knots, has), 1);
+  const Scene scene = net_scene(absent_knots, has);
+  Simulation simulation(scene, step_by_step(prepare(scene)), 1);
   simulation.advance_to(batch);
   for (auto _ : state) simulation.advance_to(simulation.step() + batch);
   count_updates(state, static_cast<double>(state.iterations() * batch * simulation.model().elements));

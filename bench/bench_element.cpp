@@ -28,7 +28,8 @@ void bare(benchmark::State& state) {
 
 // The yardstick is measured right before and after: the machine may be slower at other times than these.
 void solver(benchmark::State& state, bool ledger) {
-  Simulation simulation(chain_scene(state.range(0), ledger), 1);
+  const Scene scene = chain_scene(state.range(0), ledger);
+  Simulation simulation(scene, step_by_step(prepare(scene)), 1);
   simulation.advance_to(batch);
   const double before = bare_rate(state.range(0)), begin = thread_seconds();
   for (auto _ : state) simulation.advance_to(simulation.step() + batch);

@@ -23,7 +23,7 @@ void growth(benchmark::State& state, std::int64_t knots, int threads) {
   const double triad = triad_bytes_per_second(threads);
   const Scene scene = net_scene(knots);
   const double before = resident_bytes_in_use();
-  Simulation simulation(scene, threads);
+  Simulation simulation(scene, step_by_step(prepare(scene)), threads);
   const double held = resident_bytes() - before;
   const std::int64_t batch = batch_of(knots);
   simulation.advance_to(batch);

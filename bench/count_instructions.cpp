@@ -21,7 +21,8 @@ namespace {
 
 void count(const Features& has, bool solver, std::int64_t steps) {
   if (solver) {
-    Simulation simulation(net_scene(absent_knots, has), 1);
+    const Scene scene = net_scene(absent_knots, has);
+    Simulation simulation(scene, step_by_step(prepare(scene)), 1);
     cinch_counted(&simulation, nullptr, steps);
     std::printf("%016llx\n", static_cast<unsigned long long>(state_hash(simulation.state())));
   } else {

@@ -55,9 +55,7 @@ constexpr const char* ball =
     "poissons_ratio = 0.39\n";
 
 Simulation simulation_of(const Scene& scene, int threads, bool fly) {
-  Preparation preparation = prepare(scene);
-  for (Phase& phase : preparation.phases) phase.plan.fly = fly;
-  return {scene, std::move(preparation), threads};
+  return {scene, fly ? prepare(scene) : step_by_step(prepare(scene)), threads};
 }
 
 // Looks every `every` steps, as probes do; returns the steps flown.

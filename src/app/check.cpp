@@ -84,12 +84,6 @@ void try_phase(Simulation& s, double steps, std::size_t besides, Trial& trial) {
   trial.seconds += seconds_per_step(s) * steps;
 }
 
-// All steps one by one: a trial's first steps, in which much is slack, would fly.
-Simulation without_free_flight(const Scene& scene, Preparation p, int threads) {
-  for (Phase& phase : p.phases) phase.plan.fly = false;
-  return {scene, std::move(p), threads};
-}
-
 Trial try_out(const Scene& scene, int threads, Preparation p) {
   Trial trial;
   const bool two = p.phases.size() > 1;
@@ -97,13 +91,13 @@ Trial try_out(const Scene& scene, int threads, Preparation p) {
   const std::size_t first_model = memory_of(p.phases.front().model);
   try {
     {
-      Simulation begin = without_free_flight(scene, std::move(p), threads);
+      Simulation begin(scene, step_by_step(std::move(p)), threads);  // at first much is slack
       try_phase(begin, static_cast<double>(first), 0, trial);
     }
     if (two && end > first) {
       Scene closing = scene;  // closing at once gives the second phase's work without the wait
       closing.closing.time = 0;
-      Simulation rest = without_free_flight(closing, prepare(closing), threads);
+      Simulation rest(closing, step_by_step(prepare(closing)), threads);
       try_phase(rest, static_cast<double>(end - first), first_model, trial);
     }
   } catch (const NumericalError& error) {  // a valid case whose motion goes wrong at once: worth knowing

@@ -42,6 +42,7 @@ Piece::Piece(const Model& model, const StepPlan& plan, const std::vector<double>
 }
 
 void Piece::set_up(const Model& model, const std::vector<double>& node_share) {
+  choose_kernels();
   set_constraints(model);
   reduction_ = reduce_forces(topology_, numbering_, constraints_);
   set_parameters(model);
@@ -52,6 +53,16 @@ void Piece::set_up(const Model& model, const std::vector<double>& node_share) {
   for (const LinkEnds& link : topology_.links) reach = std::max(reach, link.b - link.a);
   lag_ = reach_in_blocks(reduction_.edges, reach);
   allocate(model, node_share);
+}
+
+Piece::ElementKernels Piece::element_kernels(kernel::Book::Sum book) const {
+  return {kernels_.axial_spans[plan_.damped][book], kernels_.axial_links[plan_.damped][book]};
+}
+
+void Piece::choose_kernels() {
+  const bool watch = plan_.contacts(), power = step_book() == kernel::Book::power;
+  step_ = {element_kernels(step_book()), kernels_.update_chain[plan_.damped][power][plan_.gravity][watch],
+           kernels_.move_nodes[plan_.gravity][watch]};
 }
 
 void Piece::set_constraints(const Model& model) {
@@ -155,7 +166,8 @@ void Piece::take(State& state) {
 void Piece::find_dampers() {
   AlignedVector<double> nowhere(ledger_size_, 0.0);
   double* const booked = std::exchange(axial_.booked, nowhere.data());
-  for (const Block& block : reduction_.blocks) compute(block, block.span_end, kernel::Book::power);
+  for (const Block& block : reduction_.blocks)
+    compute(block, block.span_end, element_kernels(kernel::Book::power));
   for (auto* forces : {&damper_, &link_damper_})
     for (double& force : *forces) force = -force;
   axial_.booked = booked;
@@ -253,53 +265,48 @@ kernel::Book::Sum Piece::step_book() const {
 
 // Forces of the block's elements: links, and spans up to span_end. Those between neighbours come after the
 // links, for the sums of the ledger.
-void Piece::compute(const Block& b, Index span_end, kernel::Book::Sum book) {
+inline void Piece::compute(const Block& b, Index span_end, const ElementKernels& elements) {
   const ForceReduction& r = reduction_;
-  const auto spans = kernels_.axial_spans[plan_.damped][book];
   if (b.patch_begin < b.patch_end)
     kernels_.patch_forces(axial_, r.patches.data(), b.patch_begin, b.patch_end);
   if (b.link_begin == b.link_end) {
-    if (b.span_begin < span_end) spans(axial_, r.spans.data(), b.span_begin, span_end);
+    if (b.span_begin < span_end) elements.spans(axial_, r.spans.data(), b.span_begin, span_end);
     return;
   }
-  spans(axial_, r.spans.data(), b.span_begin, b.neighbour_begin);
-  kernels_.axial_links[plan_.damped][book](axial_, r.links.data(), b.link_begin, b.link_end);
-  spans(axial_, r.spans.data(), b.neighbour_begin, span_end);
+  elements.spans(axial_, r.spans.data(), b.span_begin, b.neighbour_begin);
+  elements.links(axial_, r.links.data(), b.link_begin, b.link_end);
+  elements.spans(axial_, r.spans.data(), b.neighbour_begin, span_end);
 }
 
 // Those between neighbours, in ascending order, where chains are moved in the pass that computes them.
-double Piece::update_neighbours(const Block& b, kernel::Book::Sum book, bool watch) {
+double Piece::update_neighbours(const Block& b) {
   const ForceReduction& r = reduction_;
-  const auto update_chain =
-      kernels_.update_chain[plan_.damped][book == kernel::Book::power][plan_.gravity][watch];
   double greatest = 0;
   for (Index i = b.neighbour_begin; i < b.span_end; ++i) {
     const kernel::Span& span = r.spans[at(i)];
-    if (span.stretch < 0) kernels_.axial_spans[plan_.damped][book](axial_, r.spans.data(), i, i + 1);
-    else greatest = std::max(greatest, update_chain(axial_, node_, span, r.stretches[at(span.stretch)]));
+    if (span.stretch < 0) step_.elements.spans(axial_, r.spans.data(), i, i + 1);
+    else
+      greatest = std::max(greatest, step_.update_chain(axial_, node_, span, r.stretches[at(span.stretch)]));
   }
   return greatest;
 }
 
 // What supports do comes later.
-double Piece::move(const Block& b, Index stretch_begin, bool watch) {
+inline double Piece::move(const Block& b, Index stretch_begin, MoveNodes move_nodes) {
   const ForceReduction& r = reduction_;
-  double greatest =
-      kernels_.move_nodes[plan_.gravity][watch](node_, r.stretches.data(), stretch_begin, b.stretch_end);
-  if (b.kick_begin < b.kick_end)
-    greatest = std::max(greatest, kernels_.kick_nodes(node_, r.kicks.data(), b.kick_begin, b.kick_end));
-  return greatest;
+  const double greatest = move_nodes(node_, r.stretches.data(), stretch_begin, b.stretch_end);
+  if (b.kick_begin == b.kick_end) return greatest;
+  return std::max(greatest, kernels_.kick_nodes(node_, r.kicks.data(), b.kick_begin, b.kick_end));
 }
 
 double Piece::compute_and_move(const Block& b, StageClock& clock) {
-  const kernel::Book::Sum book = step_book();
-  const bool watch = plan_.contacts();
-  compute(b, one_pass_ ? b.neighbour_begin : b.span_end, book);
-  double greatest = one_pass_ ? update_neighbours(b, book, watch) : 0;
+  const bool one_pass = step_.update_chain != nullptr;  // moves chains as it computes them
+  compute(b, one_pass ? b.neighbour_begin : b.span_end, step_.elements);
+  const double chains = one_pass ? update_neighbours(b) : 0;
   clock.tick(StageId::axial_forces);
-  greatest = std::max(greatest, move(b, one_pass_ ? b.chain_stretch_end : b.stretch_begin, watch));
+  const double greatest = move(b, one_pass ? b.chain_stretch_end : b.stretch_begin, step_.move_nodes);
   clock.tick(StageId::gather_and_move);
-  return greatest;
+  return std::max(chains, greatest);
 }
 
 void Piece::hold_before(Index begin, Index end) {
@@ -340,17 +347,23 @@ double Piece::step(std::int64_t number, double motion, StageClock& clock) {
 // Step s works `lag_` blocks behind step s - 1: what it needs has had that step then, and a few blocks go
 // through all steps while they are in the cache.
 void Piece::sweep(int steps, StageClock& clock) {
+  const auto step_block = [&](const Block& block) {
+    hold_before(block.constraint_begin, block.constraint_end);
+    compute_and_move(block, clock);
+    hold_after(block.constraint_begin, block.constraint_end);
+  };
+  if (steps == 1) {
+    for (const Block& block : reduction_.blocks) step_block(block);
+    return;
+  }
   const std::size_t blocks = reduction_.blocks.size(), delay = at(steps - 1) * lag_;
   for (std::size_t front = 0; front < blocks + delay; ++front)
     for (int s = 0; s < steps; ++s) {
       const std::size_t behind = at(s) * lag_;
       if (front < behind) break;
       if (front - behind >= blocks) continue;
-      const Block& block = reduction_.blocks[front - behind];
-      if (steps > 1) use_level(s);
-      hold_before(block.constraint_begin, block.constraint_end);
-      compute_and_move(block, clock);
-      hold_after(block.constraint_begin, block.constraint_end);
+      use_level(s);
+      step_block(reduction_.blocks[front - behind]);
     }
 }
 
@@ -394,10 +407,11 @@ void Piece::glance(State& state, double motion, Glance& out) {
   lend(out);
   const auto constraints = static_cast<Index>(constraints_.size());
   hold_before(0, constraints);
-  const auto book = out.due.empty() ? kernel::Book::energy : kernel::Book::energy_and_power;
+  const ElementKernels elements =
+      element_kernels(out.due.empty() ? kernel::Book::energy : kernel::Book::energy_and_power);
   for (const Block& block : reduction_.blocks) {
-    compute(block, block.span_end, book);
-    move(block, block.stretch_begin, false);
+    compute(block, block.span_end, elements);
+    move(block, block.stretch_begin, kernels_.move_nodes[plan_.gravity][false]);
   }
   kernels_.load_nodes(node_, contacts_.loads(), contacts_.load_count());
   if (plan_.joints) load_joints();

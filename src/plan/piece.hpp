@@ -72,6 +72,19 @@ class Piece {
   std::size_t memory() const;  ///< bytes, see memory.hpp
 
  private:
+  using MoveNodes = std::remove_extent_t<std::remove_extent_t<decltype(KernelTable::move_nodes)>>;
+  struct ElementKernels {
+    std::remove_extent_t<std::remove_extent_t<decltype(KernelTable::axial_spans)>> spans;
+    std::remove_extent_t<std::remove_extent_t<decltype(KernelTable::axial_links)>> links;
+  };
+  /// What a step calls.
+  struct StepKernels {
+    ElementKernels elements;
+    double (*update_chain)(const kernel::AxialArguments&, const kernel::NodeArguments&, const kernel::Span&,
+                           const kernel::Stretch&);
+    MoveNodes move_nodes;
+  };
+
   template <class Visit>
   void for_each_element(Visit&& visit) const;
   void set_up(const Model& model, const std::vector<double>& node_share);
@@ -82,9 +95,11 @@ class Piece {
   void find_dampers();
   NodeView view() const;
   void use_level(int level);
-  void compute(const Block& block, Index span_end, kernel::Book::Sum book);
-  double update_neighbours(const Block& block, kernel::Book::Sum book, bool watch);
-  double move(const Block& block, Index stretch_begin, bool watch);
+  ElementKernels element_kernels(kernel::Book::Sum book) const;
+  void choose_kernels();
+  void compute(const Block& block, Index span_end, const ElementKernels& elements);
+  double update_neighbours(const Block& block);
+  double move(const Block& block, Index stretch_begin, MoveNodes move_nodes);
   double compute_and_move(const Block& block, StageClock& clock);
   kernel::Book::Sum step_book() const;
   void lend(Glance& out);
@@ -94,7 +109,7 @@ class Piece {
   void hold_after(Index begin, Index end);
 
   const KernelTable& kernels_ = kernels();
-  const bool one_pass_ = kernels_.update_chain[0][0][0][0] != nullptr;  ///< moves chains as it computes them
+  StepKernels step_{};
   StepPlan plan_;
   bool whole_;
   int levels_ = 1;

@@ -134,4 +134,9 @@ Preparation prepare(const Scene& scene) {
   return p;
 }
 
+Preparation step_by_step(Preparation preparation) {
+  for (Phase& phase : preparation.phases) phase.plan.fly = false;
+  return preparation;
+}
+
 }  // namespace cinch

@@ -34,6 +34,8 @@ struct Preparation {
 /// Throws CaseError for an impossible scene and for a given step above the stable bound (names the limiting
 /// element and the largest step that works), unless the scene allows it.
 Preparation prepare(const Scene& scene);
+/// The same without free flight: of use where a step's time counts, or its bits.
+Preparation step_by_step(Preparation preparation);
 
 /// "element 17 of thread.main (nodes 17 and 18)", by the user's number.
 std::string element_label(const Preparation& preparation, Index user_element);

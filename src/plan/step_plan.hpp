@@ -29,7 +29,7 @@ struct StepPlan {
   double margin = 0;                        ///< m, 0: automatic
   double speed_limit = 0;                   ///< m/s
   bool allow_unstable = false;
-  bool fly = true;  ///< may do steps of free flight at once, see free_flight.hpp: changes no bit
+  bool fly = true;  ///< steps of free flight at once, see free_flight.hpp: no bit depends on it
   Vec3 gravity_acceleration = Vec3::Zero();  ///< m/s^2
 
   /// Only scenes in which something acts on nodes beside their elements go step by step and watch the

@@ -174,26 +174,27 @@ double Stepper::move(Piece& piece, std::int64_t first, int steps, double motion,
 
 // The steps of one thread; every thread returns the same. `from` is what the run begins with.
 Stepper::Progress Stepper::run_thread(State& state, std::int64_t steps, int thread, Progress from) {
+  const bool alone = threads_ == 1, flies = alone && flight_, contacts = plan_.contacts();
   Piece& piece = *pieces_[at(thread)];
   piece.take(state);
-  const std::int64_t first = state.step;
+  const std::int64_t first = state.step, levels = piece.levels();
   StageSeconds unread{};  // of the other threads
   while (from.done < steps && from.verdict == Verdict::go_on) {
     StageClock clock(from.windows++, thread == 0 ? sampled_ : unread);
-    if (flies_alone() && flight_->pause() <= 0 && fly(state, steps - from.done, from)) {
+    if (flies && flight_->pause() <= 0 && fly(state, steps - from.done, from)) {
       clock.tick(StageId::gather_and_move);
       continue;
     }
-    const int stretch = static_cast<int>(std::min<std::int64_t>(piece.levels(), steps - from.done));
-    double greatest = move(piece, first + from.done, stretch, from.motion, clock);
+    const std::int64_t stretch = std::min(levels, steps - from.done);
+    double greatest = move(piece, first + from.done, static_cast<int>(stretch), from.motion, clock);
     from.done += stretch;
-    if (threads_ > 1) {
+    if (!alone) {
       exchange_.post(thread, piece, greatest);
       greatest = exchange_.meet(thread, piece, greatest);
       clock.tick(StageId::meeting);
     }
-    if (plan_.contacts()) judge(greatest, from);
-    if (flies_alone()) flight_->pass(stretch);
+    if (contacts) judge(greatest, from);
+    if (flies) flight_->pass(stretch);
   }
   piece.give(state);
   return from;

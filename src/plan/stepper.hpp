@@ -76,7 +76,6 @@ class Stepper {
   void judge(double greatest, Progress& progress) const;
   double asleep_until() const;
   bool fly(State& state, std::int64_t most, Progress& progress);
-  bool flies_alone() const { return threads_ == 1 && flight_; }
   Progress run(State& state, std::int64_t steps);
   Progress run_threads(State& state, std::int64_t steps, const Progress& from);
   Progress run_thread(State& state, std::int64_t steps, int thread, Progress from);
