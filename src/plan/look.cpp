@@ -4,6 +4,7 @@
 
 #include "kernels/axial_law.hpp"
 #include "plan/palette.hpp"
+#include "scene/mouth.hpp"
 
 namespace cinch {
 namespace {
@@ -60,6 +61,12 @@ void Look::take(Stepper& stepper, State& state, const Assembly& assembly, bool h
   share_ = half_step ? 0.5 : 0.0;
   stepper.glance(state, glance_);
   sum_energies();
+  mouth_area_.reset();
+}
+
+double Look::mouth_area() const {
+  if (!mouth_area_) mouth_area_ = cinch::mouth_area(ring_centers());
+  return *mouth_area_;
 }
 
 void Look::sum_energies() {

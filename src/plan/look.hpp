@@ -4,6 +4,8 @@
 // Positions and velocities are those of the same instant, v(n) = v(n-1/2) + 1/2 (v(n+1/2) - v(n-1/2)): a
 // glance at what the next step would do gives the difference.
 #pragma once
+#include <optional>
+
 #include "base/result.hpp"
 #include "plan/stepper.hpp"
 
@@ -41,6 +43,7 @@ class Look {
   std::vector<Vec3> positions() const;
   std::vector<Vec3> ring_centers() const;
   std::vector<Vec3> contact_forces() const;
+  double mouth_area() const;  ///< m^2, see scene/mouth.hpp; computed once
 
   /// Stored and dissipated; what the simulation books is zero here.
   const Energies& energy() const { return energy_; }
@@ -58,6 +61,7 @@ class Look {
   double time_ = 0, share_ = 0, dt_ = 0;
   Glance glance_;
   Energies energy_;
+  mutable std::optional<double> mouth_area_;
 };
 
 /// Sum of each term of the ledger that the kernels keep, J.

@@ -82,7 +82,7 @@ void append_value(std::vector<double>& row, const Probe& probe, const Look& now,
   const Assembly& assembly = now.assembly();
   switch (probe.quantity) {
     case ProbeQuantity::mouth_area:
-      row.push_back(mouth_area(now.ring_centers()));
+      row.push_back(now.mouth_area());
       return;
     case ProbeQuantity::mouth_spread:
       row.push_back(mouth_spread(now.ring_centers()));

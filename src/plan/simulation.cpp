@@ -281,7 +281,7 @@ void Simulation::note_losses(const Look& now) {
 void Simulation::note_events(const Look& now) {
   if (!threadings_.empty()) note_losses(now);
   if (!has_mouth_ || preparation_.closing_step < 0) return;
-  const double area = mouth_area(now.ring_centers());
+  const double area = now.mouth_area();
   greatest_mouth_ = std::max(greatest_mouth_, area);
   if (!closed_phase() || now.step() <= preparation_.closing_step) return;
   if (!mouth_closed_ && area < 0.05 * greatest_mouth_) {  // model.md: mouth closed

@@ -26,6 +26,14 @@ Stepper::Stepper(const Model& model, const StepPlan& plan, std::vector<double> n
   if (plan_.fly && plan_.flight_obstacle(model).empty()) flight_.emplace(model, plan_);
 }
 
+// Calls visit(p) for each piece p, from the thread that steps it.
+template <class Visit>
+void Stepper::each_by_its_thread(Visit visit) const {
+  if (threads_ == 1) return visit(0);  // a region of one thread takes a microsecond, too
+#pragma omp parallel for num_threads(threads_) schedule(static, 1)
+  for (int p = 0; p < threads_; ++p) visit(p);
+}
+
 // Deeper ghosts let threads meet less often, as long as they are few beside a thread's own nodes.
 int Stepper::sweep_depth(const std::vector<std::vector<Index>>& shares) const {
   if (plan_.contacts()) return 1;
@@ -46,9 +54,9 @@ void Stepper::make_pieces(const std::vector<std::vector<Index>>& shares) {
     for (const Index node : shares[p]) owner_[at(node)] = static_cast<int>(p);
   pieces_.resize(shares.size());
   // each thread makes its own piece: memory lies with who touches it first
-#pragma omp parallel for num_threads(threads_) schedule(static, 1)
-  for (int p = 0; p < threads_; ++p)
+  each_by_its_thread([&](int p) {
     pieces_[at(p)] = std::make_unique<Piece>(*model_, plan_, node_share_, shares[at(p)], depth);
+  });
 }
 
 void Stepper::share_out(State& state) {
@@ -109,9 +117,8 @@ void Stepper::hand_out_contacts(State& state) {
   if (threads_ == 1)
     return pieces_[0]->contacts().renew(all_contacts(*model_, contacts_, state), contacts_.margin(),
                                         node_share_.data());
-#pragma omp parallel for num_threads(threads_) schedule(static, 1)
-  for (int p = 0; p < threads_; ++p)
-    hand_out(*model_, contacts_, state, owner_, p, node_share_, *pieces_[at(p)]);
+  each_by_its_thread(
+      [&](int p) { hand_out(*model_, contacts_, state, owner_, p, node_share_, *pieces_[at(p)]); });
   exchange_.set_up(pieces_, owner_, true);
 }
 
@@ -159,8 +166,7 @@ bool Stepper::fly(State& state, std::int64_t most, Progress& p) {
     if (!(p.motion < contacts_.margin())) p.verdict = Verdict::renew_contacts;
     steps = done;
   }
-#pragma omp parallel for num_threads(threads_) schedule(static, 1) if (threads_ > 1)
-  for (int t = 0; t < threads_; ++t) pieces_[at(t)]->fly(static_cast<Index>(steps));
+  each_by_its_thread([&](int t) { pieces_[at(t)]->fly(static_cast<Index>(steps)); });
   flown_ += steps;
   p.done += steps;
   return true;
@@ -206,8 +212,7 @@ Stepper::Progress Stepper::run(State& state, std::int64_t steps) {
   if (threads_ == 1) return run_thread(state, steps, 0, from);
   if (!flight_) return run_threads(state, steps, from);
   if (flight_->pause() <= 0) {
-#pragma omp parallel for num_threads(threads_) schedule(static, 1)
-    for (int t = 0; t < threads_; ++t) pieces_[at(t)]->take(state);
+    each_by_its_thread([&](int t) { pieces_[at(t)]->take(state); });
     if (fly(state, steps, from)) {
       for (const auto& piece : pieces_) piece->give(state);
       return from;
@@ -271,8 +276,7 @@ void Stepper::glance(State& state, Glance& out) {
   const std::size_t rows = at(model_->ledger_rows() * kernel::lanes);
   out.elastic.assign(rows, 0.0);
   out.due.assign(plan_.damped && plan_.ledger ? rows : 0, 0.0);
-#pragma omp parallel for num_threads(threads_) schedule(static, 1) if (threads_ > 1)
-  for (int p = 0; p < threads_; ++p) pieces_[at(p)]->glance(state, motion_, out);
+  each_by_its_thread([&](int p) { pieces_[at(p)]->glance(state, motion_, out); });
   out.loads.clear();
   for (const auto& piece : pieces_) piece->append_loads(out.loads);
 }

@@ -63,6 +63,8 @@ class Stepper {
     Verdict verdict;
   };
 
+  template <class Visit>
+  void each_by_its_thread(Visit visit) const;
   void share_out(State& state);
   void make_pieces(const std::vector<std::vector<Index>>& shares);
   int sweep_depth(const std::vector<std::vector<Index>>& shares) const;
