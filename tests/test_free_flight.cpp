@@ -166,7 +166,7 @@ double bisected(const Vec3& r, const Vec3& u, double length) {
 }
 
 // One link, and one span whose first element alone is not void.
-double time_to_pull(const Vec3& r, const Vec3& u, double length, bool span) {
+double time_to_pull(const Vec3& r, const Vec3& u, double length, bool span, double enough = 1e9) {
   constexpr int lanes = kernel::lanes;
   AlignedVector<double> field[6], palette(4 * lanes, 1e300);
   palette[2 * lanes] = length;
@@ -181,7 +181,7 @@ double time_to_pull(const Vec3& r, const Vec3& u, double length, bool span) {
   g.parameter = &parameter, g.palette = palette.data();
   const kernel::Span one{0, 1, 1, 0, 0, 0, -1};
   const kernel::Link link{0, 1, 0, 0, 1, 0, length, 0};
-  return kernels().time_to_pull(g, &one, span ? 1 : 0, &link, span ? 0 : 1, 1.0);
+  return kernels().time_to_pull(g, &one, span ? 1 : 0, &link, span ? 0 : 1, 1.0, enough);
 }
 
 TEST(FreeFlight, LastsUntilAnElementIsTaut) {
@@ -195,7 +195,9 @@ TEST(FreeFlight, LastsUntilAnElementIsTaut) {
       const double slope = (r + expected * u).dot(u) / length;
       EXPECT_NEAR(time_to_pull(r, u, length, span), expected, 1e-9 * expected + 1e-15 / slope);
       EXPECT_EQ(time_to_pull(1.01 * length / r.norm() * r, u, length, span), 0);
-      EXPECT_EQ(time_to_pull(r, Vec3::Zero(), length, span), HUGE_VAL) << "at rest to each other";
+      EXPECT_EQ(time_to_pull(r, u, length, span, 0.99 * expected), 0.99 * expected);
+      EXPECT_NEAR(time_to_pull(r, u, length, span, 1.01 * expected), expected, 0.009 * expected);
+      EXPECT_EQ(time_to_pull(r, Vec3::Zero(), length, span), 1e9) << "at rest to each other";
     }
   }
 }

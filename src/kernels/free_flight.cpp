@@ -25,25 +25,50 @@ inline double time_to_stretch(double below, double uu, double ru) {
   return ru > 0 ? below / (ru + root) : (root - ru) / uu;
 }
 
-// 0 where an element of the group is not slack.
-inline double time_of_group(const AxialArguments& g, const Span& s, std::ptrdiff_t group, double part) {
+// How the elements of a group stand: l^2 - r.r, u.u, r.u.
+struct Approaches {
+  alignas(64) double below[lanes], uu[lanes], ru[lanes];
+};
+
+inline void approach(const AxialArguments& g, const Span& s, std::ptrdiff_t group, double part,
+                     Approaches& out) {
   const double* __restrict const rest =
       g.palette +
       (kernel::palette_fields * static_cast<std::ptrdiff_t>(g.parameter[s.parameter + group]) + 2) * lanes;
   const std::ptrdiff_t first = s.node + group * lanes;
-  double least = HUGE_VAL, taut = 0;
-#pragma omp simd reduction(min : least) reduction(+ : taut)
+#pragma omp simd
   for (std::ptrdiff_t lane = 0; lane < lanes; ++lane) {
     const std::ptrdiff_t i = first + lane, j = i + s.step;
     const double rx = g.x[j] - g.x[i], ry = g.y[j] - g.y[i], rz = g.z[j] - g.z[i];
     const double u = g.vx[j] - g.vx[i], v = g.vy[j] - g.vy[i], w = g.vz[j] - g.vz[i];
     const double length = part * rest[lane];
-    const double below = length * length - (rx * rx + ry * ry + rz * rz);
-    const double time = time_to_stretch(below, u * u + v * v + w * w, rx * u + ry * v + rz * w);
-    taut += below > 0 ? 0.0 : 1.0;
+    out.below[lane] = length * length - (rx * rx + ry * ry + rz * rz);
+    out.uu[lane] = u * u + v * v + w * w;
+    out.ru[lane] = rx * u + ry * v + rz * w;
+  }
+}
+
+// 0 where an element of the group is not slack. Those that are it now and after `enough`, by far most, are
+// it in between, too: no roots for them.
+inline double time_of_group(const AxialArguments& g, const Span& s, std::ptrdiff_t group, double part,
+                            double enough) {
+  Approaches a;
+  approach(g, s, group, part, a);
+  double taut = 0, taut_later = 0;
+#pragma omp simd reduction(+ : taut, taut_later)
+  for (std::ptrdiff_t lane = 0; lane < lanes; ++lane) {
+    taut += a.below[lane] > 0 ? 0.0 : 1.0;
+    taut_later += a.below[lane] > enough * (2 * a.ru[lane] + enough * a.uu[lane]) ? 0.0 : 1.0;
+  }
+  if (taut > 0) return 0;
+  if (!(taut_later > 0)) return enough;
+  double least = enough;
+#pragma omp simd reduction(min : least)
+  for (std::ptrdiff_t lane = 0; lane < lanes; ++lane) {
+    const double time = time_to_stretch(a.below[lane], a.uu[lane], a.ru[lane]);
     least = time < least ? time : least;
   }
-  return taut > 0 ? 0 : least;
+  return least;
 }
 
 inline double time_of_link(const AxialArguments& g, const Link& l, double part) {
@@ -54,11 +79,11 @@ inline double time_of_link(const AxialArguments& g, const Link& l, double part) 
 }
 
 double time_to_pull(const AxialArguments& g, const Span* spans, Index span_count, const Link* links,
-                    Index link_count, double part) {
-  double least = HUGE_VAL;
+                    Index link_count, double part, double enough) {
+  double least = enough;
   for (Index i = 0; i < span_count; ++i)
     for (Index group = 0; group < spans[i].groups && least > 0; ++group) {
-      const double time = time_of_group(g, spans[i], group, part);
+      const double time = time_of_group(g, spans[i], group, part, enough);
       least = time < least ? time : least;
     }
   for (Index i = 0; i < link_count && least > 0; ++i) {

@@ -22,10 +22,10 @@ struct KernelTable {
   /// one pass; returns what move_nodes does. Null in instruction sets where two passes are as fast.
   double (*update_chain[2][2][2][2])(const kernel::AxialArguments&, const kernel::NodeArguments&,
                                      const kernel::Span&, const kernel::Stretch&);
-  /// Time for which all elements of these spans and links stay shorter than `part` of their rest lengths if no
-  /// force acts on their nodes, s; 0 where one is not.
+  /// Time, at most `enough`, for which all elements of these spans and links stay shorter than `part` of
+  /// their rest lengths if no force acts on their nodes, s; 0 where one is not.
   double (*time_to_pull)(const kernel::AxialArguments&, const kernel::Span*, Index span_count,
-                         const kernel::Link*, Index link_count, double part);
+                         const kernel::Link*, Index link_count, double part, double enough);
   /// [gravity]: moves the nodes [0, nodes) by many steps in which no force acts on them.
   void (*fly_freely[2])(const kernel::NodeArguments&, Index nodes, Index steps);
   /// Adds forces of links to nodes that have moved; returns the greatest squared speed among them.

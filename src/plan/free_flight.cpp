@@ -48,9 +48,10 @@ Index FreeFlight::look(const State& state, const Pieces& pieces, std::int64_t mo
   if (most < worth) return 0;
   constexpr double rounding = std::numeric_limits<double>::epsilon();
   const auto wanted = static_cast<double>(std::min(most, longest));
+  const double enough = (1 + 2 * spare) * wanted * plan_.dt;
   double steps = wanted;
   for (const auto& piece : pieces)
-    steps = std::min(steps, (1 - spare) * piece->time_to_pull(spare) / plan_.dt);
+    steps = std::min(steps, (1 - spare) * piece->time_to_pull(spare, enough) / plan_.dt);
   // in each step, places and speeds of an element's ends round off by half a unit along each axis
   if (steps >= worth)
     steps = std::min(steps, 0.25 * spare * shortest_ / (rounding * reach(state, steps * plan_.dt)));

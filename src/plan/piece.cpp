@@ -367,13 +367,13 @@ void Piece::sweep(int steps, StageClock& clock) {
     }
 }
 
-double Piece::time_to_pull(double spare) const {
+double Piece::time_to_pull(double spare, double enough) const {
   const auto works = [](double force) { return force != 0; };
   for (const auto* dampers : {&damper_, &link_damper_})
     if (std::any_of(dampers->begin(), dampers->end(), works)) return 0;
   const ForceReduction& r = reduction_;
   return kernels_.time_to_pull(axial_, r.spans.data(), static_cast<Index>(r.spans.size()), r.links.data(),
-                               static_cast<Index>(r.links.size()), 1 - spare);
+                               static_cast<Index>(r.links.size()), 1 - spare, enough);
 }
 
 void Piece::fly(Index steps) { kernels_.fly_freely[plan_.gravity](node_, numbering_.nodes(), steps); }

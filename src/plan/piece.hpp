@@ -55,9 +55,9 @@ class Piece {
   /// What one step from this state would add to the speeds of its own nodes; moves and books nothing. With
   /// several pieces `out` has its final size already.
   void glance(State& state, double motion, Glance& out);
-  /// Time for which none of its elements would pull if nothing else did, s; 0 where one does. They count as
-  /// shorter than they are, by `spare` of their length.
-  double time_to_pull(double spare) const;
+  /// Time, at most `enough`, for which none of its elements would pull if nothing else did, s; 0 where one
+  /// does. They count as shorter than they are, by `spare` of their length.
+  double time_to_pull(double spare, double enough) const;
   /// `steps` steps in which nothing pulls and nothing touches.
   void fly(Index steps);
   /// Appends the forces of contacts and joints on its own nodes as last evaluated, in the user's numbers.
