@@ -20,7 +20,7 @@ TEST(StageClock, GivesNothingWhereNoStepWasTimed) { EXPECT_EQ(share_out({}, 8), 
 
 TEST(StageClock, TimesOneStretchInSoMany) {
   StageSeconds seconds{};
-  for (std::int64_t i = 1; i < StageClock::timed_every; ++i) StageClock(i, seconds).tick(StageId::contacts);
+  for (std::int64_t i = 1; i < std::int64_t{StageClock::timed_every}; ++i) StageClock(i, seconds).tick(StageId::contacts);
   EXPECT_EQ(seconds, StageSeconds{});
   StageClock clock(StageClock::timed_every, seconds);
   while (seconds == StageSeconds{}) clock.tick(StageId::contacts);

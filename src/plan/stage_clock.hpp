@@ -18,11 +18,11 @@ inline double clock_seconds() {
 
 class StageClock {
  public:
-  static constexpr std::int64_t timed_every = 64;
+  static constexpr std::uint64_t timed_every = 61;  ///< no multiple of what happens every few steps
 
   /// Runs when stretch number `number` of steps is one of those timed; adds to `seconds`.
   StageClock(std::int64_t number, StageSeconds& seconds)
-      : timed_(number % timed_every == 0), seconds_(seconds) {
+      : timed_(static_cast<std::uint64_t>(number) % timed_every == 0), seconds_(seconds) {
     if (timed_) last_ = clock_seconds();
   }
 

@@ -172,12 +172,6 @@ bool Stepper::fly(State& state, std::int64_t most, Progress& p) {
   return true;
 }
 
-double Stepper::move(Piece& piece, std::int64_t first, int steps, double motion, StageClock& clock) {
-  if (plan_.contacts()) return piece.step(first, motion, clock);
-  piece.sweep(steps, clock);
-  return 0;
-}
-
 // The steps of one thread; every thread returns the same. `from` is what the run begins with.
 Stepper::Progress Stepper::run_thread(State& state, std::int64_t steps, int thread, Progress from) {
   const bool alone = threads_ == 1, flies = alone && flight_, contacts = plan_.contacts();
@@ -185,14 +179,17 @@ Stepper::Progress Stepper::run_thread(State& state, std::int64_t steps, int thre
   piece.take(state);
   const std::int64_t first = state.step, levels = piece.levels();
   StageSeconds unread{};  // of the other threads
+  StageSeconds& seconds = thread == 0 ? sampled_ : unread;
   while (from.done < steps && from.verdict == Verdict::go_on) {
-    StageClock clock(from.windows++, thread == 0 ? sampled_ : unread);
+    StageClock clock(from.windows++, seconds);
     if (flies && flight_->pause() <= 0 && fly(state, steps - from.done, from)) {
       clock.tick(StageId::gather_and_move);
       continue;
     }
     const std::int64_t stretch = std::min(levels, steps - from.done);
-    double greatest = move(piece, first + from.done, static_cast<int>(stretch), from.motion, clock);
+    double greatest = 0;
+    if (contacts) greatest = piece.step(first + from.done, from.motion, clock);
+    else piece.sweep(static_cast<int>(stretch), clock);
     from.done += stretch;
     if (!alone) {
       exchange_.post(thread, piece, greatest);

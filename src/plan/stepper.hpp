@@ -81,7 +81,6 @@ class Stepper {
   Progress run(State& state, std::int64_t steps);
   Progress run_threads(State& state, std::int64_t steps, const Progress& from);
   Progress run_thread(State& state, std::int64_t steps, int thread, Progress from);
-  double move(Piece& piece, std::int64_t first, int steps, double motion, StageClock& clock);
 
   const Model* model_;
   StepPlan plan_;
