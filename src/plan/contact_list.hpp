@@ -30,7 +30,8 @@ class ContactList {
 
   double margin() const { return margin_; }
   /// A ring and a thread come closer by at most so many times the way of the fastest node: wires of rings
-  /// turn with the elements that carry them, which may be shorter than the rings. Balls stand still.
+  /// turn with the elements that carry them, which may be shorter than the rings but, so it is taken, not
+  /// than at rest. Balls stand still.
   double ring_approach() const { return 2 * turning_; }
   /// No pair that approaches by less within a step can pass through each other unnoticed, m.
   double longest_approach() const { return longest_approach_; }

@@ -25,9 +25,9 @@ class FreeFlight {
   /// For how many steps, at most `most`, nothing pulls from this state on, which the pieces have taken; 0
   /// where that is too few.
   Index look(const State& state, const Pieces& pieces, std::int64_t most);
-  /// After what a look would not find: that something touches. Returns 0.
-  Index put_off(const Pieces& pieces);
-  /// The greatest squared speed, as the look found it, m^2/s^2; without gravity it stays.
+  /// No look for a while, longer than the last time.
+  void put_off(const Pieces& pieces);
+  /// The greatest squared speed, as the last look that found steps met it, m^2/s^2; without gravity it stays.
   double greatest() const { return greatest_; }
 
  private:

@@ -8,6 +8,9 @@
 namespace cinch {
 namespace {
 
+/// Of the motion that closes a gap: places round off in each step, so that what flies straight at a ball
+/// would be seen a step later than by one who has just woken up, as after a restart.
+constexpr double sleep_share = 0.9;
 constexpr double window_share = 0.03;  ///< of the margin: bench_contact.cpp measures it
 
 kernel::RingLane lane_of(const kernel::Pair& pair, const kernel::RingGeometry& ring, const double* share) {
@@ -99,8 +102,8 @@ void NearContacts::evaluate(const NodeView& n, const StepPlan& plan, double time
                                         loads_.data() + load_count_);
   evaluated_ += awake_count_;
   for (std::size_t i = 0; i < static_cast<std::size_t>(awake_count_); ++i) {
-    const double way = i < static_cast<std::size_t>(awake_rings_) ? 1.0 : contacts_.ring_approach;
-    asleep_[static_cast<std::size_t>(awake_[i])] = motion + way * gap_[i];
+    const double motion_per_gap = i < static_cast<std::size_t>(awake_rings_) ? 1.0 : contacts_.ring_approach;
+    asleep_[static_cast<std::size_t>(awake_[i])] = motion + sleep_share * motion_per_gap * gap_[i];
   }
 }
 

@@ -169,7 +169,7 @@ void Piece::find_dampers() {
   for (const Block& block : reduction_.blocks)
     compute(block, block.span_end, element_kernels(kernel::Book::power));
   for (auto* forces : {&damper_, &link_damper_})
-    for (double& force : *forces) force = -force;
+    for (double& force : *forces) force = 0 - force;  // no negative zeros
   axial_.booked = booked;
   knows_dampers_ = true;
 }
@@ -198,9 +198,12 @@ bool Piece::tell_dampers(AlignedVector<double>& forces) const {
 }
 
 void Piece::set_dampers(const AlignedVector<double>& forces) {
-  for_each_element([&](std::size_t e, Index, std::size_t place) { damper_[place] = forces[e]; });
+  // those of others are never renewed here
+  for_each_element([&](std::size_t e, Index node, std::size_t place) {
+    if (numbering_.own(node)) damper_[place] = forces[e];
+  });
   for (std::size_t i = 0; i < link_damper_.size(); ++i)
-    link_damper_[i] = forces[at(topology_.links[i].element)];
+    if (reduction_.links[i].row >= 0) link_damper_[i] = forces[at(topology_.links[i].element)];
   knows_dampers_ = true;
 }
 
@@ -368,7 +371,7 @@ void Piece::sweep(int steps, StageClock& clock) {
 }
 
 double Piece::time_to_pull(double spare, double enough) const {
-  const auto works = [](double force) { return force != 0; };
+  const auto works = [](double force) { return force != 0; };  // the next step books its power
   for (const auto* dampers : {&damper_, &link_damper_})
     if (std::any_of(dampers->begin(), dampers->end(), works)) return 0;
   const ForceReduction& r = reduction_;

@@ -152,15 +152,19 @@ double Stepper::asleep_until() const {
   return until;
 }
 
-// Free flight, as many steps at once as elements and contacts allow. Returns whether there were any.
+// Free flight, as many steps at once as elements and contacts allow; returns whether that was tried. Where
+// the list of pairs is used up at once, it is renewed and no step is done.
 bool Stepper::fly(State& state, std::int64_t most, Progress& p) {
   const double wakes = plan_.contacts() ? asleep_until() : HUGE_VAL;
-  std::int64_t steps = p.motion < wakes ? flight_->look(state, pieces_, most) : flight_->put_off(pieces_);
-  if (steps == 0) return false;
+  std::int64_t steps = p.motion < wakes ? flight_->look(state, pieces_, most) : 0;
+  const double greatest = flight_->greatest(), approached = approach(greatest);
+  const bool fast = plan_.contacts() && (approached > contacts_.longest_approach() ||
+                                         greatest > plan_.speed_limit * plan_.speed_limit);
+  if (steps == 0 || fast) {  // single steps find what touches or is too fast
+    if (most >= FreeFlight::worth) flight_->put_off(pieces_);
+    return false;
+  }
   if (plan_.contacts()) {
-    const double greatest = flight_->greatest(), approached = approach(greatest);
-    if (approached > contacts_.longest_approach() || greatest > plan_.speed_limit * plan_.speed_limit)
-      return false;
     std::int64_t done = 0;
     for (; done < steps && p.motion < wakes && p.motion < contacts_.margin(); ++done) p.motion += approached;
     if (!(p.motion < contacts_.margin())) p.verdict = Verdict::renew_contacts;
