@@ -347,18 +347,7 @@ TEST(Restart, StrangeNumbersDoNotCrash) {
 // touch, and who has just woken up must not see that earlier.
 TEST(Restart, JustBeforeABallIsTouched) {
   const auto scene = [](double speed, double center) {
-    Scene s = parse_case(R"(schema = 1
-[time]
-end_s = 1
-step_s = 2e-6
-[contact]
-margin_m = 5
-[material.m]
-youngs_modulus_Pa = 1e9
-density_kg_m3 = 970
-[thread.a]
-material = "m"
-diameter_m = 0.002
+    Scene s = thread_scene(1e9, 0.1, R"(
 elements = 10
 length_m = 1.2
 points_m = [[-0.45, 0, 1000], [0.55, 0, 1000]]
@@ -366,9 +355,10 @@ points_m = [[-0.45, 0, 1000], [0.55, 0, 1000]]
 center_m = [0, 0, 0]
 radius_m = 0.1
 youngs_modulus_Pa = 2.3e9
-)",
-                         "ball.toml");
-    s.threads.front().velocity = Vec3(0, 0, speed);
+)");
+    s.time.step = 2e-6;
+    s.contact.margin = 5;
+    s.threads.front().velocity.z() = speed;
     s.targets.front().center.z() = center;
     return s;
   };
