@@ -3,6 +3,8 @@
 // which works on the state itself; else each piece has its own copy, which its own thread is the first to
 // touch.
 #pragma once
+#include <type_traits>
+
 #include "plan/glance.hpp"
 #include "plan/near_contacts.hpp"
 #include "plan/palette.hpp"
@@ -72,16 +74,15 @@ class Piece {
   std::size_t memory() const;  ///< bytes, see memory.hpp
 
  private:
-  using MoveNodes = std::remove_extent_t<std::remove_extent_t<decltype(KernelTable::move_nodes)>>;
+  using MoveNodes = std::remove_all_extents_t<decltype(KernelTable::move_nodes)>;
   struct ElementKernels {
-    std::remove_extent_t<std::remove_extent_t<decltype(KernelTable::axial_spans)>> spans;
-    std::remove_extent_t<std::remove_extent_t<decltype(KernelTable::axial_links)>> links;
+    std::remove_all_extents_t<decltype(KernelTable::axial_spans)> spans;
+    std::remove_all_extents_t<decltype(KernelTable::axial_links)> links;
   };
   /// What a step calls.
   struct StepKernels {
     ElementKernels elements;
-    double (*update_chain)(const kernel::AxialArguments&, const kernel::NodeArguments&, const kernel::Span&,
-                           const kernel::Stretch&);
+    std::remove_all_extents_t<decltype(KernelTable::update_chain)> update_chain;
     MoveNodes move_nodes;
   };
 
