@@ -42,7 +42,6 @@ void FreeFlight::put_off(const Pieces& pieces) {
 }
 
 Index FreeFlight::look(const State& state, const Pieces& pieces, std::int64_t most) {
-  if (most < worth) return 0;
   constexpr double rounding = std::numeric_limits<double>::epsilon();
   const auto wanted = static_cast<double>(std::min(most, longest));
   const double enough = (1 + 2 * spare) * wanted * plan_.dt;

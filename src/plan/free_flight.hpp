@@ -5,6 +5,7 @@
 // places of their nodes round off meanwhile, no step until then would have found a force: the bits are those
 // of single steps.
 #pragma once
+#include <algorithm>
 #include <memory>
 
 #include "plan/piece.hpp"
@@ -15,12 +16,12 @@ class FreeFlight {
   using Pieces = std::vector<std::unique_ptr<Piece>>;
 
  public:
-  static constexpr std::int64_t worth = 4;  ///< steps that pay for a look
-
   FreeFlight(const Model& model, const StepPlan& plan);
 
-  /// Steps to do one by one before a look may be worth it: looks that find something that pulls grow rare.
-  std::int64_t pause() const { return pause_; }
+  /// Whether a look may be worth it, with `most` steps to do: looks that find something that pulls grow rare.
+  bool due(std::int64_t most) const { return pause_ <= 0 && most >= worth; }
+  /// Steps to do one by one before the next look, and that so many were.
+  std::int64_t pause() const { return std::max(pause_, worth); }
   void pass(std::int64_t steps) { pause_ -= steps; }
   /// For how many steps, at most `most`, nothing pulls from this state on, which the pieces have taken; 0
   /// where that is too few.
@@ -31,6 +32,8 @@ class FreeFlight {
   double greatest() const { return greatest_; }
 
  private:
+  static constexpr std::int64_t worth = 4;  ///< steps that pay for a look
+
   double reach(const State& state, double time);
 
   StepPlan plan_;

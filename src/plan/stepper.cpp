@@ -161,7 +161,7 @@ bool Stepper::fly(State& state, std::int64_t most, Progress& p) {
   const bool fast = plan_.contacts() && (approached > contacts_.longest_approach() ||
                                          greatest > plan_.speed_limit * plan_.speed_limit);
   if (steps == 0 || fast) {  // single steps find what touches or is too fast
-    if (most >= FreeFlight::worth) flight_->put_off(pieces_);
+    flight_->put_off(pieces_);
     return false;
   }
   if (plan_.contacts()) {
@@ -186,7 +186,7 @@ Stepper::Progress Stepper::run_thread(State& state, std::int64_t steps, int thre
   StageSeconds& seconds = thread == 0 ? sampled_ : unread;
   while (from.done < steps && from.verdict == Verdict::go_on) {
     StageClock clock(from.windows++, seconds);
-    if (flies && flight_->pause() <= 0 && fly(state, steps - from.done, from)) {
+    if (flies && flight_->due(steps - from.done) && fly(state, steps - from.done, from)) {
       clock.tick(StageId::gather_and_move);
       continue;
     }
@@ -212,15 +212,16 @@ Stepper::Progress Stepper::run(State& state, std::int64_t steps) {
   Progress from{0, windows_, motion_, Verdict::go_on};
   if (threads_ == 1) return run_thread(state, steps, 0, from);
   if (!flight_) return run_threads(state, steps, from);
-  if (flight_->pause() <= 0) {
+  if (flight_->due(steps)) {
+    StageClock clock(from.windows++, sampled_);
     each_by_its_thread([&](int t) { pieces_[at(t)]->take(state); });
-    if (fly(state, steps, from)) {
-      for (const auto& piece : pieces_) piece->give(state);
-      return from;
-    }
+    const bool flew = fly(state, steps, from);
+    for (const auto& piece : pieces_)
+      if (flew) piece->give(state);
+    clock.tick(StageId::gather_and_move);
+    if (flew) return from;
   }
-  const std::int64_t stretch = std::min(std::max(flight_->pause(), FreeFlight::worth), steps);
-  const Progress reached = run_threads(state, stretch, from);
+  const Progress reached = run_threads(state, std::min(flight_->pause(), steps), from);
   flight_->pass(reached.done);
   return reached;
 }
