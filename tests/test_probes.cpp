@@ -6,6 +6,8 @@
 
 #include "base/error.hpp"
 #include "plan/probes.hpp"
+#include "scene/mouth.hpp"
+#include "support/quick_cases.hpp"
 #include "support/scenes.hpp"
 
 namespace {
@@ -144,6 +146,22 @@ youngs_modulus_Pa = 70e9
   } catch (const CaseError& error) {
     EXPECT_NE(std::string(error.what()).find("has no velocity of its own"), std::string::npos)
         << error.what();
+  }
+}
+
+// A look computes it once, the next look anew.
+TEST(Probes, TheMouthIsThatOfTheLook) {
+  const Case one = sliding_capture();
+  Simulation sim(read(one), 1);
+  double before = 0;
+  for (const std::int64_t step : {one.steps / 2, one.steps}) {
+    sim.advance_to(step);
+    const Look& now = sim.look();
+    const double area = now.mouth_area();
+    EXPECT_EQ(area, mouth_area(now.ring_centers()));
+    EXPECT_EQ(area, now.mouth_area());
+    EXPECT_NE(area, before);
+    before = area;
   }
 }
 
