@@ -64,7 +64,7 @@ void node_update(benchmark::State& state, Index terms) {
   Chain chain(state.range(0));
   kernel::Stretch stretch{0, chain.count, terms, {lanes, lanes, lanes}, {lanes - 1, 0, 0}};
   const kernel::NodeArguments arguments = chain.node();
-  const auto kernel = kernels().move_nodes[0][0];
+  const auto kernel = kernels().move_nodes[0][kernel::Moving::blind];
   for (auto _ : state) {
     kernel(arguments, &stretch, 0, 1);
     benchmark::ClobberMemory();

@@ -36,7 +36,7 @@ void sliding_joints(benchmark::State& state) {
     s.y[static_cast<std::size_t>(joint.host_a)] += 0.01;  // 3 mm beyond the opening
   SlidingJoints joints;
   joints.take_all(phase.model);
-  joints.take(s);
+  joints.take(s, s.x.size());
   const NodeView nodes{s.x.data(), s.y.data(), s.z.data(), s.vx.data(), s.vy.data(), s.vz.data(), nullptr};
   for (auto _ : state) joints.evaluate(nodes, phase.plan, 0);
   state.counters["items_per_second"] =

@@ -18,7 +18,7 @@ void advance(const bench::StrippedScene& s, std::int64_t steps) {
       const bench::StrippedBlock& b = s.blocks[i];
       patch_forces(s.axial, s.patches, b.patch_begin, b.patch_end);
       axial_spans<damped, book>(s.axial, s.spans, b.span_begin, b.span_end);
-      move_nodes<gravity, false>(s.node, s.stretches, b.stretch_begin, b.stretch_end);
+      move_nodes<gravity, kernel::Moving::blind>(s.node, s.stretches, b.stretch_begin, b.stretch_end);
     }
 }
 

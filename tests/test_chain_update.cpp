@@ -20,7 +20,7 @@ constexpr Index groups = 37, nodes = groups * lanes, first = 3 * lanes;  // rows
 // A chain of random elements, a third of them slack, in the first `idle` groups all, and random forces of
 // other runs on its nodes. One damper of those that idle has not yet booked its last pull.
 struct Chain {
-  AlignedVector<double> field[6], scale, force[3], palette, booked, damper;
+  AlignedVector<double> field[6], scale, load[3], force[3], palette, booked, damper;
   std::vector<Index> parameter;
   static constexpr Index plus = lanes, others = plus + nodes + lanes;
 
@@ -36,6 +36,8 @@ struct Chain {
       for (std::size_t f = 3; f < 6; ++f) field[f][static_cast<std::size_t>(i)] *= 1e5;
       scale.push_back(draw(0.01, 0.1));
     }
+    for (auto& f : load)
+      for (Index i = 0; i < nodes + lanes; ++i) f.push_back(draw(-100, 100));
     for (auto& f : force)
       for (Index i = 0; i < others + 5 * (nodes + lanes); ++i) f.push_back(draw(-100, 100));
     for (int row = 0; row < 4; ++row) {
@@ -60,7 +62,8 @@ struct Chain {
   kernel::NodeArguments node() {
     return {field[0].data(), field[1].data(), field[2].data(),     field[3].data(),
             field[4].data(), field[5].data(), scale.data(),        force[0].data(),
-            force[1].data(), force[2].data(), {1e-6, -2e-6, 3e-6}, 1e-6};
+            force[1].data(), force[2].data(), {1e-6, -2e-6, 3e-6}, 1e-6,
+            load[0].data(),  load[1].data(),  load[2].data()};
   }
 };
 
@@ -79,7 +82,8 @@ enum class Damping { none, unbooked, booked };  // without damping there is no p
 
 struct Update {
   Damping damping;
-  bool gravity, watch;
+  bool gravity;
+  kernel::Moving::Kind kind;
   Index terms, idle;
 
   bool damped() const { return damping != Damping::none; }
@@ -110,22 +114,23 @@ int compute(Chain& c, bool ledger) {
 }
 
 // Returns the greatest squared speed.
-double move(Chain& c, const kernel::Stretch& s, bool gravity) {
+double move(Chain& c, const kernel::Stretch& s, bool gravity, bool loaded) {
   const kernel::NodeArguments g = c.node();
   double greatest = 0;
   for (Index k = 0; k < nodes; ++k) {
     double squared = 0;
-    const auto axis = [&](double* x, double* v, const double* force, double pull) {
+    const auto axis = [&](double* x, double* v, const double* force, const double* load, double pull) {
       double sum = force[s.plus[0] + k] - force[s.minus[0] + k];
       for (Index t = 1; t < s.terms; ++t) sum += force[s.plus[t] + k] - force[s.minus[t] + k];
+      if (loaded) sum += load[k];
       const double gain = g.scale[k] * sum;
       v[k] += gravity ? gain + pull : gain;
       x[k] += g.dt * v[k];
       squared += v[k] * v[k];
     };
-    axis(g.x, g.vx, g.fx, g.gravity[0]);
-    axis(g.y, g.vy, g.fy, g.gravity[1]);
-    axis(g.z, g.vz, g.fz, g.gravity[2]);
+    axis(g.x, g.vx, g.fx, g.load_x, g.gravity[0]);
+    axis(g.y, g.vy, g.fy, g.load_y, g.gravity[1]);
+    axis(g.z, g.vz, g.fz, g.load_z, g.gravity[2]);
     greatest = std::max(greatest, squared);
   }
   return greatest;
@@ -143,11 +148,12 @@ void expect_same(const Chain& a, const Chain& b, Index forces_from) {
     }
 }
 
-class ChainUpdate : public testing::TestWithParam<std::tuple<Damping, bool, bool, Index, Index>> {
+class ChainUpdate
+    : public testing::TestWithParam<std::tuple<Damping, bool, kernel::Moving::Kind, Index, Index>> {
  protected:
   Update update() const {
-    const auto [damping, gravity, watch, terms, idle] = GetParam();
-    return {damping, gravity, watch, terms, idle};
+    const auto [damping, gravity, kind, terms, idle] = GetParam();
+    return {damping, gravity, kind, terms, idle};
   }
 };
 
@@ -156,15 +162,16 @@ TEST_P(ChainUpdate, HasTheBitsOfSingleElementsAndNodes) {
   const kernel::Stretch gathered = stretch(u.terms);
   const auto spans =
       kernels().axial_spans[u.damped()][u.ledger() ? kernel::Book::power : kernel::Book::nothing];
-  const auto move_nodes = kernels().move_nodes[u.gravity][u.watch];
-  const auto one_pass = kernels().update_chain[u.damped()][u.ledger()][u.gravity][u.watch];
+  const auto move_nodes = kernels().move_nodes[u.gravity][u.kind];
+  const auto one_pass = kernels().update_chain[u.damped()][u.ledger()][u.gravity][u.kind];
   EXPECT_EQ(one_pass != nullptr, std::string(kernels().isa) == "v4") << "the set that has it";
   const Chain begin(u.damped(), u.idle);
   Chain single = begin, two = begin, one = begin;
   int switched = 0;
   for (int step = 0; step < 3; ++step) {
     switched += compute(single, u.ledger());
-    const double greatest = move(single, gathered, u.gravity), watched = u.watch ? greatest : 0;
+    const double greatest = move(single, gathered, u.gravity, u.kind == kernel::Moving::loaded);
+    const double watched = u.kind == kernel::Moving::blind ? 0 : greatest;
     spans(two.axial(), &span, 0, 1);
     EXPECT_EQ(move_nodes(two.node(), &gathered, 0, 1), watched);
     if (!one_pass) continue;
@@ -176,9 +183,10 @@ TEST_P(ChainUpdate, HasTheBitsOfSingleElementsAndNodes) {
   if (one_pass) expect_same(single, one, nodes - lanes);  // what the node behind the chain takes
 }
 
-INSTANTIATE_TEST_SUITE_P(All, ChainUpdate,
-                         testing::Combine(testing::Values(Damping::none, Damping::unbooked, Damping::booked),
-                                          testing::Bool(), testing::Bool(), testing::Values(1, 2, 3),
-                                          testing::Values(0, 5, groups)));
+INSTANTIATE_TEST_SUITE_P(
+    All, ChainUpdate,
+    testing::Combine(testing::Values(Damping::none, Damping::unbooked, Damping::booked), testing::Bool(),
+                     testing::Values(kernel::Moving::blind, kernel::Moving::watched, kernel::Moving::loaded),
+                     testing::Values(1, 2, 3), testing::Values(0, 5, groups)));
 
 }  // namespace

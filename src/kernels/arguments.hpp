@@ -94,12 +94,20 @@ struct Reaction {
   double impulse[3], moment[3];
 };
 
+/// What moving nodes takes in besides element forces, and what it tells.
+struct Moving {
+  enum Kind { blind, watched, loaded };  ///< nothing; the greatest speed; that, with standing loads
+  static constexpr int kinds = 3;
+};
+
 struct NodeArguments {
   double *x, *y, *z, *vx, *vy, *vz;  ///< node
   const double* scale;               ///< node: dt / m, s/kg; 0: not moved here
   const double *fx, *fy, *fz;        ///< force, N
   double gravity[3];                 ///< dt g, m/s
   double dt;                         ///< s
+  const double *load_x = nullptr, *load_y = nullptr,
+               *load_z = nullptr;  ///< node: standing loads, forces that hold for several steps, N
 };
 
 /// What node_energies sums up.

@@ -20,6 +20,7 @@ namespace {
 
 using kernel::AxialArguments;
 using kernel::lanes;
+using kernel::Moving;
 using kernel::NodeArguments;
 using kernel::Span;
 using kernel::Stretch;
@@ -65,6 +66,7 @@ struct Chain {
 /// What adds to the element forces along one axis.
 struct Others {
   const double *plus[2], *minus[2];  ///< second and third term of the chain's first node, N
+  const double* load;                ///< standing, on that node, N
   Group pull;                        ///< dt g, m/s
 };
 
@@ -74,16 +76,19 @@ CINCH_INLINE Chain chain(const AxialArguments& g, const NodeArguments& n, const 
           g.palette};
 }
 
-CINCH_INLINE Others others(const double* force, const Stretch& s, double pull) {
-  return {
-      {force + s.plus[1], force + s.plus[2]}, {force + s.minus[1], force + s.minus[2]}, _mm512_set1_pd(pull)};
+CINCH_INLINE Others others(const double* force, const Stretch& s, const double* load, double pull) {
+  return {{force + s.plus[1], force + s.plus[2]},
+          {force + s.minus[1], force + s.minus[2]},
+          load,
+          _mm512_set1_pd(pull)};
 }
 
 /// v += dt F/m, x += dt v along one axis for the nodes from number i on; returns the speeds.
-template <bool gravity, int terms>
+template <bool gravity, bool loaded, int terms>
 CINCH_INLINE Group move(double* x, double* v, std::ptrdiff_t i, Group force, const Others& more, Group scale,
                         Group dt) {
   for (int t = 0; t + 1 < terms; ++t) force += load(more.plus[t] + i) - load(more.minus[t] + i);
+  if (loaded) force += load(more.load + i);
   const Group gain = scale * force;
   const Group speed = load(v + i) + (gravity ? gain + more.pull : gain);
   store(v + i, speed);
@@ -119,8 +124,9 @@ class LedgerRow {
 };
 
 /// A chain on its way through its groups.
-template <bool power, bool gravity, bool watch, int terms>
+template <bool power, bool gravity, Moving::Kind kind, int terms>
 struct Walk {
+  static constexpr bool loaded = kind == Moving::loaded;
   const Chain c;
   const Others x, y, z;
   const Group dt;
@@ -132,23 +138,26 @@ struct Walk {
   CINCH_INLINE void move_group(std::ptrdiff_t k, const Forces& here, bool more) {
     const std::ptrdiff_t i = k * lanes;
     const Group scale = load(c.scale + i);
-    const Group u = move<gravity, terms>(c.x, c.u, i, here.x - lower(before.x, here.x), x, scale, dt);
-    const Group v = move<gravity, terms>(c.y, c.v, i, here.y - lower(before.y, here.y), y, scale, dt);
-    const Group w = move<gravity, terms>(c.z, c.w, i, here.z - lower(before.z, here.z), z, scale, dt);
-    if (watch) greatest = _mm512_max_pd(u * u + v * v + w * w, greatest);
+    const Group u = move<gravity, loaded, terms>(c.x, c.u, i, here.x - lower(before.x, here.x), x, scale, dt);
+    const Group v = move<gravity, loaded, terms>(c.y, c.v, i, here.y - lower(before.y, here.y), y, scale, dt);
+    const Group w = move<gravity, loaded, terms>(c.z, c.w, i, here.z - lower(before.z, here.z), z, scale, dt);
+    if (kind != Moving::blind) greatest = _mm512_max_pd(u * u + v * v + w * w, greatest);
     if (power) ledger.advance(more);
     before = here;
   }
 };
 
-template <bool damped, bool power, bool gravity, bool watch, int terms>
+template <bool damped, bool power, bool gravity, Moving::Kind kind, int terms>
 double update(const AxialArguments& g, const NodeArguments& n, const Span& span, const Stretch& stretch) {
   const std::ptrdiff_t groups = span.groups;
-  Walk<power, gravity, watch, terms> walk{
+  const auto load_on = [&](const double* loads) {
+    return kind == Moving::loaded ? loads + span.node : nullptr;
+  };
+  Walk<power, gravity, kind, terms> walk{
       chain(g, n, span),
-      others(n.fx, stretch, n.gravity[0]),
-      others(n.fy, stretch, n.gravity[1]),
-      others(n.fz, stretch, n.gravity[2]),
+      others(n.fx, stretch, load_on(n.load_x), n.gravity[0]),
+      others(n.fy, stretch, load_on(n.load_y), n.gravity[1]),
+      others(n.fz, stretch, load_on(n.load_z), n.gravity[2]),
       _mm512_set1_pd(n.dt),
       {load(n.fx + span.force - lanes), load(n.fy + span.force - lanes), load(n.fz + span.force - lanes)},
       _mm512_setzero_pd(),
@@ -182,34 +191,39 @@ double update(const AxialArguments& g, const NodeArguments& n, const Span& span,
   const std::ptrdiff_t last = span.force + (groups - 1) * lanes;  // what the next node's stretch reads
   const Forces& before = walk.before;
   store(g.fx + last, before.x), store(g.fy + last, before.y), store(g.fz + last, before.z);
-  return watch ? _mm512_reduce_max_pd(walk.greatest) : 0;
+  return kind != Moving::blind ? _mm512_reduce_max_pd(walk.greatest) : 0;
 }
 
-template <bool damped, bool power, bool gravity, bool watch>
+template <bool damped, bool power, bool gravity, Moving::Kind kind>
 double update_one(const AxialArguments& g, const NodeArguments& n, const Span& span, const Stretch& stretch) {
   switch (stretch.terms) {
     case 1:
-      return update<damped, power, gravity, watch, 1>(g, n, span, stretch);
+      return update<damped, power, gravity, kind, 1>(g, n, span, stretch);
     case 2:
-      return update<damped, power, gravity, watch, 2>(g, n, span, stretch);
+      return update<damped, power, gravity, kind, 2>(g, n, span, stretch);
     default:
-      return update<damped, power, gravity, watch, kernel::max_terms>(g, n, span, stretch);
+      return update<damped, power, gravity, kind, kernel::max_terms>(g, n, span, stretch);
   }
 }
 
-template <bool damped, bool ledger, bool gravity, bool watch>
+template <bool damped, bool ledger, bool gravity, Moving::Kind kind>
 double update_chain(const AxialArguments& g, const NodeArguments& n, const Span& span,
                     const Stretch& stretch) {
-  return ledger && span.row_node >= 0 ? update_one<damped, ledger, gravity, watch>(g, n, span, stretch)
-                                      : update_one<damped, false, gravity, watch>(g, n, span, stretch);
+  return ledger && span.row_node >= 0 ? update_one<damped, ledger, gravity, kind>(g, n, span, stretch)
+                                      : update_one<damped, false, gravity, kind>(g, n, span, stretch);
+}
+
+template <bool damped, bool ledger, Moving::Kind kind>
+void fill_kind(KernelTable& table) {
+  table.update_chain[damped][ledger][0][kind] = update_chain<damped, ledger, false, kind>;
+  table.update_chain[damped][ledger][1][kind] = update_chain<damped, ledger, true, kind>;
 }
 
 template <bool damped, bool ledger>
 void fill(KernelTable& table) {
-  table.update_chain[damped][ledger][0][0] = update_chain<damped, ledger, false, false>;
-  table.update_chain[damped][ledger][0][1] = update_chain<damped, ledger, false, true>;
-  table.update_chain[damped][ledger][1][0] = update_chain<damped, ledger, true, false>;
-  table.update_chain[damped][ledger][1][1] = update_chain<damped, ledger, true, true>;
+  fill_kind<damped, ledger, Moving::blind>(table);
+  fill_kind<damped, ledger, Moving::watched>(table);
+  fill_kind<damped, ledger, Moving::loaded>(table);
 }
 
 }  // namespace

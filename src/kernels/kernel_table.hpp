@@ -15,13 +15,14 @@ struct KernelTable {
   void (*axial_links[2][kernel::Book::sums])(const kernel::AxialArguments&, const kernel::Link*, Index begin,
                                              Index end);
   void (*patch_forces)(const kernel::AxialArguments&, const kernel::Patch*, Index begin, Index end);
-  /// [gravity][watch]: gathers element forces and moves nodes; returns the greatest squared speed, if
-  /// watched.
-  double (*move_nodes[2][2])(const kernel::NodeArguments&, const kernel::Stretch*, Index begin, Index end);
-  /// [damped][power is booked][gravity][watch]: computes a span that names a stretch and moves its nodes, in
+  /// [gravity][kind]: gathers element forces and moves nodes; returns the greatest squared speed, if watched.
+  double (*move_nodes[2][kernel::Moving::kinds])(const kernel::NodeArguments&, const kernel::Stretch*,
+                                                 Index begin, Index end);
+  /// [damped][power is booked][gravity][kind]: computes a span that names a stretch and moves its nodes, in
   /// one pass; returns what move_nodes does. Null in instruction sets where two passes are as fast.
-  double (*update_chain[2][2][2][2])(const kernel::AxialArguments&, const kernel::NodeArguments&,
-                                     const kernel::Span&, const kernel::Stretch&);
+  double (*update_chain[2][2][2][kernel::Moving::kinds])(const kernel::AxialArguments&,
+                                                         const kernel::NodeArguments&, const kernel::Span&,
+                                                         const kernel::Stretch&);
   /// Time, at most `enough`, for which all elements of these spans and links stay shorter than `part` of
   /// their rest lengths if no force acts on their nodes, s; 0 where one is not.
   double (*time_to_pull)(const kernel::AxialArguments&, const kernel::Span*, Index span_count,

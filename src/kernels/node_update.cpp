@@ -1,9 +1,9 @@
 // Moves nodes by central differences:
 //   v(n+1/2) = v(n-1/2) + dt F(n)/m,   x(n+1) = x(n) + dt v(n+1/2)            (paper Sec. 5.3)
 // Forces that depend on velocity use v(n-1/2): the scheme is of second order in dt without them, of first
-// order in them. Element forces are gathered in the pass that moves the nodes; what only a few nodes feel
-// (links, contacts) is added behind it, v += dt L/m and x += dt (dt L/m), and supports take off last what
-// they do not allow.
+// order in them. Element forces are gathered in the pass that moves the nodes, and standing loads with them;
+// what only a few nodes feel (links, contacts) is added behind it, v += dt L/m and x += dt (dt L/m), and
+// supports take off last what they do not allow.
 #include <cstddef>
 
 #include "kernels/kernel_table.hpp"
@@ -14,6 +14,7 @@ namespace {
 using kernel::Constraint;
 using kernel::Kick;
 using kernel::Load;
+using kernel::Moving;
 using kernel::NodeArguments;
 using kernel::Stretch;
 
@@ -37,26 +38,30 @@ inline double sum(const double* p0, const double* m0, const double* p1, const do
 
 // `count` nodes; returns the greatest squared speed where it is watched. Parameters rather than a struct: so
 // compilers know that the arrays are apart.
-template <bool gravity, bool watch, bool chain, int terms>
+template <bool gravity, Moving::Kind kind, bool chain, int terms>
 inline double move(std::ptrdiff_t count, double* __restrict x, double* __restrict y, double* __restrict z,
                    double* __restrict vx, double* __restrict vy, double* __restrict vz,
                    const double* __restrict scale, Force p0, Force m0, Force p1, Force m1, Force p2, Force m2,
-                   const double (&pull)[3], double dt) {
+                   const double* lx, const double* ly, const double* lz, const double (&pull)[3], double dt) {
+  constexpr bool loaded = kind == Moving::loaded;
   const double gx = pull[0], gy = pull[1], gz = pull[2];
   double greatest = 0;
 #pragma omp simd reduction(max : greatest)
   for (std::ptrdiff_t i = 0; i < count; ++i) {
     const double s = scale[i];
-    const double ax = s * sum<chain, terms>(p0.x, m0.x, p1.x, m1.x, p2.x, m2.x, i);
-    const double ay = s * sum<chain, terms>(p0.y, m0.y, p1.y, m1.y, p2.y, m2.y, i);
-    const double az = s * sum<chain, terms>(p0.z, m0.z, p1.z, m1.z, p2.z, m2.z, i);
+    const double fx = sum<chain, terms>(p0.x, m0.x, p1.x, m1.x, p2.x, m2.x, i);
+    const double fy = sum<chain, terms>(p0.y, m0.y, p1.y, m1.y, p2.y, m2.y, i);
+    const double fz = sum<chain, terms>(p0.z, m0.z, p1.z, m1.z, p2.z, m2.z, i);
+    const double ax = s * (loaded ? fx + lx[i] : fx);
+    const double ay = s * (loaded ? fy + ly[i] : fy);
+    const double az = s * (loaded ? fz + lz[i] : fz);
     const double u = vx[i] + (gravity ? ax + gx : ax);
     const double v = vy[i] + (gravity ? ay + gy : ay);
     const double w = vz[i] + (gravity ? az + gz : az);
     const double new_x = x[i] + dt * u, new_y = y[i] + dt * v, new_z = z[i] + dt * w;
     vx[i] = u, vy[i] = v, vz[i] = w;
     x[i] = new_x, y[i] = new_y, z[i] = new_z;
-    if (watch) {
+    if (kind != Moving::blind) {
       const double squared = u * u + v * v + w * w;
       greatest = squared > greatest ? squared : greatest;
     }
@@ -65,36 +70,36 @@ inline double move(std::ptrdiff_t count, double* __restrict x, double* __restric
 }
 
 // The nodes of one stretch.
-template <bool gravity, bool watch, bool chain, int terms>
+template <bool gravity, Moving::Kind kind, bool chain, int terms>
 double move_stretch(const NodeArguments& g, const Stretch& s) {
-  return move<gravity, watch, chain, terms>(
-      s.count, g.x + s.node, g.y + s.node, g.z + s.node, g.vx + s.node, g.vy + s.node, g.vz + s.node,
-      g.scale + s.node, Force(g, s.plus[0]), Force(g, s.minus[0]), Force(g, s.plus[1]), Force(g, s.minus[1]),
-      Force(g, s.plus[2]), Force(g, s.minus[2]), g.gravity, g.dt);
+  const auto load = [&](const double* loads) { return kind == Moving::loaded ? loads + s.node : nullptr; };
+  return move<gravity, kind, chain, terms>(s.count, g.x + s.node, g.y + s.node, g.z + s.node, g.vx + s.node,
+                                           g.vy + s.node, g.vz + s.node, g.scale + s.node,
+                                           Force(g, s.plus[0]), Force(g, s.minus[0]), Force(g, s.plus[1]),
+                                           Force(g, s.minus[1]), Force(g, s.plus[2]), Force(g, s.minus[2]),
+                                           load(g.load_x), load(g.load_y), load(g.load_z), g.gravity, g.dt);
 }
 
-template <bool gravity, bool watch>
+template <bool gravity, Moving::Kind kind>
 inline double move_one(const NodeArguments& g, const Stretch& s) {
   const bool chain = s.minus[0] == s.plus[0] - 1;
   switch (s.terms) {
     case 0:
-      return move_stretch<gravity, watch, false, 0>(g, s);
+      return move_stretch<gravity, kind, false, 0>(g, s);
     case 1:
-      return chain ? move_stretch<gravity, watch, true, 1>(g, s)
-                   : move_stretch<gravity, watch, false, 1>(g, s);
+      return chain ? move_stretch<gravity, kind, true, 1>(g, s) : move_stretch<gravity, kind, false, 1>(g, s);
     case 2:
-      return chain ? move_stretch<gravity, watch, true, 2>(g, s)
-                   : move_stretch<gravity, watch, false, 2>(g, s);
+      return chain ? move_stretch<gravity, kind, true, 2>(g, s) : move_stretch<gravity, kind, false, 2>(g, s);
     default:
-      return move_stretch<gravity, watch, false, kernel::max_terms>(g, s);
+      return move_stretch<gravity, kind, false, kernel::max_terms>(g, s);
   }
 }
 
-template <bool gravity, bool watch>
+template <bool gravity, Moving::Kind kind>
 double move_nodes(const NodeArguments& g, const Stretch* stretches, Index begin, Index end) {
   double greatest = 0;
   for (Index i = begin; i < end; ++i) {
-    const double here = move_one<gravity, watch>(g, stretches[i]);
+    const double here = move_one<gravity, kind>(g, stretches[i]);
     greatest = here > greatest ? here : greatest;
   }
   return greatest;
@@ -170,10 +175,12 @@ void hold_after(const NodeArguments& g, const Constraint* constraints, Index beg
 }  // namespace
 
 void fill_node_update(KernelTable& table) {
-  table.move_nodes[0][0] = move_nodes<false, false>;
-  table.move_nodes[0][1] = move_nodes<false, true>;
-  table.move_nodes[1][0] = move_nodes<true, false>;
-  table.move_nodes[1][1] = move_nodes<true, true>;
+  table.move_nodes[0][Moving::blind] = move_nodes<false, Moving::blind>;
+  table.move_nodes[0][Moving::watched] = move_nodes<false, Moving::watched>;
+  table.move_nodes[0][Moving::loaded] = move_nodes<false, Moving::loaded>;
+  table.move_nodes[1][Moving::blind] = move_nodes<true, Moving::blind>;
+  table.move_nodes[1][Moving::watched] = move_nodes<true, Moving::watched>;
+  table.move_nodes[1][Moving::loaded] = move_nodes<true, Moving::loaded>;
   table.kick_nodes = kick_nodes;
   table.load_nodes = load_nodes;
   table.hold_before = hold_before;

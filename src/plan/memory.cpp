@@ -60,7 +60,7 @@ std::size_t NearContacts::memory() const {
 
 std::size_t SlidingJoints::memory() const {
   return bytes_of(threads_, nodes_, mobility_, joints_, number_, scene_thread_, states_, tallies_, scratch_,
-                  on_threads_, on_hosts_, pushing_, ends_);
+                  on_threads_, on_hosts_, pushing_, ends_, standing_[0], standing_[1], standing_[2]);
 }
 
 std::size_t Piece::memory() const {

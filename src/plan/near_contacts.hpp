@@ -6,6 +6,7 @@
 // short window of motion are near and are evaluated every step. Sleeping pairs do not touch, so the forces
 // are those of all pairs.
 #pragma once
+#include <span>
 #include <vector>
 
 #include "kernels/kernel_table.hpp"
@@ -43,8 +44,9 @@ class NearContacts {
   /// Motion up to which nothing touches.
   double asleep_until() const;
 
-  const kernel::Load* loads() const { return loads_.data(); }
-  Index load_count() const { return load_count_; }
+  std::span<const kernel::Load> loads() const {
+    return {loads_.data(), static_cast<std::size_t>(load_count_)};
+  }
   std::int64_t evaluated() const { return evaluated_; }  ///< pairs so far
   std::size_t memory() const;                            ///< bytes, see memory.hpp
 

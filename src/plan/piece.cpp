@@ -60,9 +60,12 @@ Piece::ElementKernels Piece::element_kernels(kernel::Book::Sum book) const {
 }
 
 void Piece::choose_kernels() {
-  const bool watch = plan_.contacts(), power = step_book() == kernel::Book::power;
-  step_ = {element_kernels(step_book()), kernels_.update_chain[plan_.damped][power][plan_.gravity][watch],
-           kernels_.move_nodes[plan_.gravity][watch]};
+  const bool power = step_book() == kernel::Book::power;
+  const kernel::Moving::Kind kind = plan_.joints       ? kernel::Moving::loaded
+                                    : plan_.contacts() ? kernel::Moving::watched
+                                                       : kernel::Moving::blind;
+  step_ = {element_kernels(step_book()), kernels_.update_chain[plan_.damped][power][plan_.gravity][kind],
+           kernels_.move_nodes[plan_.gravity][kind]};
 }
 
 void Piece::set_constraints(const Model& model) {
@@ -155,7 +158,7 @@ void Piece::take(State& state) {
     for (std::size_t i = 0; i < contact_ghosts_.size(); ++i)
       fields_[f][numbering_.global.size() + i] = from[at(contact_ghosts_[i])];
   }
-  joints_.take(state);
+  if (plan_.joints) joints_.take(state, scale_.size());
   bind(state);
   if (step_book() == kernel::Book::power && !knows_dampers_) find_dampers();
 }
@@ -246,7 +249,10 @@ void Piece::bind(State& state) {
            force_[1].data(),
            force_[2].data(),
            {g.x(), g.y(), g.z()},
-           plan_.dt};
+           plan_.dt,
+           joints_.standing(0),
+           joints_.standing(1),
+           joints_.standing(2)};
   for (std::size_t c = 0; c < reactions_.size(); ++c)
     reactions_[c] = reaction_number_[c] >= 0 ? &state.reactions[at(reaction_number_[c])] : &unbooked_;
 }
@@ -321,11 +327,8 @@ void Piece::hold_after(Index begin, Index end) {
     kernels_.hold_after(node_, constraints_.data(), begin, end, held_.data(), reactions_.data());
 }
 
-double Piece::load_joints() {
-  const auto load = [&](std::span<const kernel::Load> list) {
-    return kernels_.load_nodes(node_, list.data(), static_cast<Index>(list.size()));
-  };
-  return std::max({load(joints_.on_threads()), load(joints_.on_hosts()), load(joints_.pushing())});
+double Piece::load_nodes(std::span<const kernel::Load> loads) {
+  return kernels_.load_nodes(node_, loads.data(), static_cast<Index>(loads.size()));
 }
 
 double Piece::step(std::int64_t number, double motion, StageClock& clock) {
@@ -340,8 +343,8 @@ double Piece::step(std::int64_t number, double motion, StageClock& clock) {
   hold_before(0, constraints);
   double greatest = 0;
   for (const Block& block : reduction_.blocks) greatest = std::max(greatest, compute_and_move(block, clock));
-  greatest = std::max(greatest, kernels_.load_nodes(node_, contacts_.loads(), contacts_.load_count()));
-  if (plan_.joints) greatest = std::max(greatest, load_joints());
+  greatest = std::max(greatest, load_nodes(contacts_.loads()));
+  if (plan_.joints) greatest = std::max(greatest, load_nodes(joints_.pushing()));
   hold_after(0, constraints);
   clock.tick(StageId::gather_and_move);
   return greatest;
@@ -414,10 +417,11 @@ void Piece::glance(State& state, double motion, Glance& out) {
       element_kernels(out.due.empty() ? kernel::Book::energy : kernel::Book::energy_and_power);
   for (const Block& block : reduction_.blocks) {
     compute(block, block.span_end, elements);
-    move(block, block.stretch_begin, kernels_.move_nodes[plan_.gravity][false]);
+    move(block, block.stretch_begin, kernels_.move_nodes[plan_.gravity][kernel::Moving::blind]);
   }
-  kernels_.load_nodes(node_, contacts_.loads(), contacts_.load_count());
-  if (plan_.joints) load_joints();
+  load_nodes(contacts_.loads());
+  if (plan_.joints)
+    for (const auto& loads : {joints_.on_threads(), joints_.on_hosts(), joints_.pushing()}) load_nodes(loads);
   hold_after(0, constraints);
   for (std::size_t f = 0; !whole_ && f < 3; ++f)
     for (std::size_t i = 0; i < numbering_.global.size(); ++i)
@@ -425,7 +429,7 @@ void Piece::glance(State& state, double motion, Glance& out) {
 }
 
 void Piece::append_loads(std::vector<kernel::Load>& loads) const {
-  append({contacts_.loads(), at(contacts_.load_count())}, loads);
+  append(contacts_.loads(), loads);
   append(joints_.on_hosts(), loads);
   append(joints_.pushing(), loads);
 }

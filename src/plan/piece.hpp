@@ -102,10 +102,10 @@ class Piece {
   double update_neighbours(const Block& block);
   double move(const Block& block, Index stretch_begin, MoveNodes move_nodes);
   double compute_and_move(const Block& block, StageClock& clock);
+  double load_nodes(std::span<const kernel::Load> loads);
   kernel::Book::Sum step_book() const;
   void lend(Glance& out);
   void append(std::span<const kernel::Load> list, std::vector<kernel::Load>& loads) const;
-  double load_joints();
   void hold_before(Index begin, Index end);
   void hold_after(Index begin, Index end);
 

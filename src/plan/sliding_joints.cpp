@@ -94,7 +94,23 @@ SlidingJoints::Held SlidingJoints::held_of(State& state, std::size_t t) const {
           state.held.count[at(scene_thread_[t])]};
 }
 
-void SlidingJoints::take(State& state) {
+void SlidingJoints::clear_standing() {
+  for (const auto& loads : {on_threads(), on_hosts()})
+    for (const kernel::Load& load : loads)
+      for (auto& axis : standing_) axis[at(load.node)] = 0;
+}
+
+// In the order of the threads of the scene, whatever piece adds: sums have the same bits in all.
+void SlidingJoints::add_standing() {
+  for (const auto& loads : {on_threads(), on_hosts()})
+    for (const kernel::Load& load : loads) {
+      standing_[0][at(load.node)] += load.x;
+      standing_[1][at(load.node)] += load.y;
+      standing_[2][at(load.node)] += load.z;
+    }
+}
+
+void SlidingJoints::take(State& state, std::size_t nodes) {
   for (std::size_t j = 0; j < number_.size(); ++j) states_[j] = state.joints[at(number_[j])];
   for (const kernel::Joint& joint : joints_)
     tallies_[at(joint.ring)] = books_ring_[at(joint.ring)] ? &state.rings[at(joint.ring)] : nullptr;
@@ -106,6 +122,8 @@ void SlidingJoints::take(State& state) {
     ends_[t] = {static_cast<Index>(to_threads - on_threads_.data()),
                 static_cast<Index>(to_hosts - on_hosts_.data())};
   }
+  for (auto& axis : standing_) axis.assign(nodes, 0.0);
+  add_standing();
 }
 
 void SlidingJoints::give(State& state) const {
@@ -151,9 +169,11 @@ kernel::SlidingArguments SlidingJoints::arguments(const NodeView& n, const StepP
 void SlidingJoints::evaluate(const NodeView& nodes, const StepPlan& plan, std::int64_t step) {
   if (empty()) return;  // another thread has them all
   const double held = plan.joint_steps * plan.dt;
+  clear_standing();
   kernels_->sliding_joints(
       arguments(nodes, plan, static_cast<double>(step) * plan.dt, held, 0.5 * (held - plan.dt), held),
       on_threads_.data(), on_hosts_.data());
+  add_standing();
 }
 
 // The last evaluation took nodes where they were (m - 1) / 2 steps later.

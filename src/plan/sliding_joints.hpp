@@ -25,8 +25,8 @@ class SlidingJoints {
 
   bool empty() const { return threads_.empty(); }
   /// Begins with the joints as they stand in `state`, which books their rings until the next call, and with
-  /// the forces that hold there.
-  void take(State& state);
+  /// the forces that hold there. `nodes`: of the piece.
+  void take(State& state, std::size_t nodes);
   /// Hands back the joints that are booked here, and their forces.
   void give(State& state) const;
   /// Hands back what they feel, but not how they moved: after an evaluation that was but a look.
@@ -41,6 +41,8 @@ class SlidingJoints {
   /// What nodes of threads take beside the force of straight elements; forces of the rings on their hosts.
   std::span<const kernel::Load> on_threads() const { return {on_threads_.data(), count(total().threads)}; }
   std::span<const kernel::Load> on_hosts() const { return {on_hosts_.data(), count(total().hosts)}; }
+  /// Both together by node, along one axis, N: they stand until they are evaluated again.
+  const double* standing(std::size_t axis) const { return standing_[axis].data(); }
   std::span<const kernel::Load> pushing() const { return {pushing_.data(), count(pushes_)}; }
   std::size_t memory() const;  ///< bytes, see memory.hpp
 
@@ -55,6 +57,8 @@ class SlidingJoints {
   kernel::SlidingArguments arguments(const NodeView& nodes, const StepPlan& plan, double time,
                                      double booked_dt, double ahead, double since);
   void make_room(const Model& model);
+  void clear_standing();
+  void add_standing();
   kernel::SlidingLoads total() const { return ends_.empty() ? kernel::SlidingLoads{0, 0} : ends_.back(); }
   static std::size_t count(Index n) { return static_cast<std::size_t>(n); }
 
@@ -71,6 +75,7 @@ class SlidingJoints {
   std::vector<kernel::RingTally*> tallies_;  ///< ring
   AlignedVector<double> scratch_;
   std::vector<kernel::Load> on_threads_, on_hosts_, pushing_;  ///< room for all
+  AlignedVector<double> standing_[3];                          ///< node
   Index pushes_ = 0;
   std::vector<kernel::SlidingLoads> ends_;  ///< thread: behind its loads
 };
