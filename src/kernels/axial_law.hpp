@@ -78,7 +78,7 @@ inline Axial axial_law(double rr, double rv, double k, double c, double l0, doub
   const double rate = rv * inverse, change = rate * dt;
   const double full = k * stretch, drag = stretch > 0 ? c * rate : 0.0;
   const double spare = stretch > 0 ? stretch - furthest * std::fabs(change) : 0.0;
-  const double spring = switching && stretch > 0 ? spring_at_switch(k, stretch, change, drag, give) : full;
+  const double spring = switching && spare < 0 ? spring_at_switch(k, stretch, change, drag, give) : full;
   const double pull = spring + drag;
   const double tension = pull > 0 ? pull : 0.0;
   return {tension, tension * inverse, rate, tension - spring, 0.5 * full * stretch, spare};

@@ -93,13 +93,16 @@ void NearContacts::evaluate(const NodeView& n, const StepPlan& plan, double time
                                     scratch_.data(),
                                     plan.golden,
                                     plan.couple};
-  load_count_ = kernels_.ring_contacts(rings, contacts_.pairs.data(), awake_.data(), awake_rings_,
-                                       gap_.data(), loads_.data());
+  load_count_ = 0;
+  if (plan.rings)
+    load_count_ = kernels_.ring_contacts(rings, contacts_.pairs.data(), awake_.data(), awake_rings_,
+                                         gap_.data(), loads_.data());
   contact.alpha = plan.alpha_target;
   const kernel::BallArguments balls{contact, contacts_.centers.data(), contacts_.ball_tallies.data()};
-  load_count_ += kernels_.ball_contacts(balls, contacts_.pairs.data(), awake_.data() + awake_rings_,
-                                        awake_count_ - awake_rings_, gap_.data() + awake_rings_,
-                                        loads_.data() + load_count_);
+  if (plan.balls)
+    load_count_ += kernels_.ball_contacts(balls, contacts_.pairs.data(), awake_.data() + awake_rings_,
+                                          awake_count_ - awake_rings_, gap_.data() + awake_rings_,
+                                          loads_.data() + load_count_);
   evaluated_ += awake_count_;
   for (std::size_t i = 0; i < static_cast<std::size_t>(awake_count_); ++i) {
     const double motion_per_gap = i < static_cast<std::size_t>(awake_rings_) ? 1.0 : contacts_.ring_approach;

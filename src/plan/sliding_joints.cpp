@@ -97,7 +97,7 @@ SlidingJoints::Held SlidingJoints::held_of(State& state, std::size_t t) const {
 void SlidingJoints::clear_standing() {
   for (const auto& loads : {on_threads(), on_hosts()})
     for (const kernel::Load& load : loads)
-      for (auto& axis : standing_) axis[at(load.node)] = 0;
+      standing_[0][at(load.node)] = standing_[1][at(load.node)] = standing_[2][at(load.node)] = 0;
 }
 
 // In the order of the threads of the scene, whatever piece adds: sums have the same bits in all.
