@@ -11,7 +11,7 @@ constexpr std::size_t at(Index i) { return static_cast<std::size_t>(i); }
 
 constexpr double spare = 1e-9;             ///< of an element's length, left over for what rounds off
 constexpr std::int64_t longest = 1 << 20;  ///< steps
-constexpr std::int64_t shortest_pause = 8, longest_pause = 256;  ///< steps: a jerk takes a dozen
+constexpr std::int64_t shortest_pause = 6, longest_pause = 256;  ///< steps: a jerk takes a dozen
 
 // Several pieces take the state anew for each look.
 std::int64_t pause_factor(std::size_t pieces) { return pieces > 1 ? 8 : 1; }
@@ -38,7 +38,7 @@ double FreeFlight::reach(const State& s, double time) {
 }
 
 void FreeFlight::put_off(const Pieces& pieces) {
-  pause_ = pause_length_ = std::min(2 * pause_length_ + 1, pause_factor(pieces.size()) * longest_pause);
+  pause_ = pause_length_ = std::min(pause_length_ + pause_length_ / 4 + 1, pause_factor(pieces.size()) * longest_pause);
 }
 
 Index FreeFlight::look(const State& state, const Pieces& pieces, std::int64_t most) {
