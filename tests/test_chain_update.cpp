@@ -16,6 +16,7 @@ using namespace cinch;
 using kernel::lanes;
 
 constexpr Index groups = 37, nodes = groups * lanes, first = 3 * lanes;  // rows of the ledger begin inside
+constexpr Index rows = (first + nodes) / kernel::grain + 1;
 
 // A chain of random elements, a third of them slack, in the first `idle` groups all, and random forces of
 // other runs on its nodes. One damper of those that idle has not yet booked its last pull.
@@ -48,7 +49,7 @@ struct Chain {
       for (Index lane = 0; lane < lanes; ++lane) palette.push_back(draw(0, 2e-6));
     }
     for (Index g = 0; g < groups; ++g) parameter.push_back(static_cast<Index>(random() % 4));
-    for (Index i = 0; i < 4 * lanes; ++i) booked.push_back(draw(0, 1));
+    for (Index i = 0; i < rows * lanes; ++i) booked.push_back(draw(0, 1));
     for (Index i = 0; i < nodes; ++i) damper.push_back(i < idle * lanes ? 0 : draw(-1, 1));
     if (idle > 2) damper[2 * lanes + 3] = 0.7;
   }

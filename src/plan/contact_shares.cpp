@@ -38,6 +38,7 @@ void hand_out(const Model& model, const ContactList& list, State& state, const s
               int number, const std::vector<double>& node_share, Piece& piece) {
   const auto own = [&](Index node) { return owner[at(node)] == number; };
   LocalContacts out;
+  out.shared = true;
   std::vector<Index> needed;
   const auto take_pair = [&](const kernel::Pair& pair, Index with) {
     out.pairs.push_back(pair);

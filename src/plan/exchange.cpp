@@ -10,6 +10,7 @@ constexpr std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 constexpr int patient_spins =
     4096;  ///< some microseconds; longer waits mean that the other thread has no core
+constexpr std::size_t numbers_in_line = 8;
 
 // Tells the processor that this is a wait.
 inline void relax() {
@@ -24,6 +25,16 @@ void wait_for(const std::atomic<std::int64_t>& round, std::int64_t wanted) {
   for (int spin = 0; round.load(std::memory_order_acquire) < wanted; ++spin)
     if (spin < patient_spins) relax();
     else std::this_thread::yield();
+}
+
+// Asks for a line of memory to write on, which another core has read: asked for when a step begins, it does
+// not keep that step's end waiting.
+inline void claim(const double* line) {
+#if defined(__x86_64__)
+  asm volatile("prefetchw %0" : : "m"(*line));
+#else
+  __builtin_prefetch(line, 1);
+#endif
 }
 
 }  // namespace
@@ -90,6 +101,9 @@ double Exchange::meet(int p, Piece& piece, double greatest) {
     wait_for(posts_[at(q)]->round, round);
     greatest = std::max(greatest, posts_[at(q)]->greatest[side]);
   }
+  for (const Channel* channel : received_[at(p)])  // all lines at once
+    for (std::size_t k = 0; k < channel->box[side].size(); k += numbers_in_line)
+      __builtin_prefetch(&channel->box[side][k]);
   for (const Channel* channel : received_[at(p)]) {
     const std::size_t nodes = channel->to.size();
     for (std::size_t f = 0; f < 6; ++f) {
@@ -97,6 +111,10 @@ double Exchange::meet(int p, Piece& piece, double greatest) {
       const double* const box = channel->box[side].data() + f * nodes;
       for (std::size_t k = 0; k < nodes; ++k) field[channel->to[k]] = box[k];
     }
+  }
+  for (const auto& channel : sent_[at(p)]) {  // those of the next round
+    const AlignedVector<double>& box = channel->box[1 - side];
+    for (std::size_t k = 0; k < box.size(); k += numbers_in_line) claim(&box[k]);
   }
   return greatest;
 }

@@ -55,7 +55,8 @@ std::size_t ContactList::memory() const {
 }
 
 std::size_t NearContacts::memory() const {
-  return bytes_of(contacts_.pairs, contacts_.ball_tallies, lanes_, asleep_, near_, awake_, gap_, loads_);
+  return ring_tallies_.memory() + ball_tallies_.memory() +
+         bytes_of(contacts_.pairs, lanes_, asleep_, near_, awake_, gap_, loads_);
 }
 
 std::size_t SlidingJoints::memory() const {
@@ -65,10 +66,10 @@ std::size_t SlidingJoints::memory() const {
 
 std::size_t Piece::memory() const {
   const ForceReduction& r = reduction_;
-  std::size_t sum =
-      numbering_.memory() + contacts_.memory() + joints_.memory() +
-      bytes_of(topology_.runs, topology_.slot_element, topology_.links, r.blocks, r.patches, r.spans, r.links,
-               r.stretches, r.kicks, scale_, share_, damper_, link_damper_, palette_.rows, palette_.of_group);
+  std::size_t sum = numbering_.memory() + contacts_.memory() + joints_.memory() +
+                    bytes_of(topology_.runs, topology_.slot_element, topology_.links, r.blocks, r.patches,
+                             r.spans, r.links, r.stretches, r.kicks, scale_, share_, damper_, link_damper_,
+                             ledger_, own_rows_, palette_.rows, palette_.of_group);
   for (const auto& field : own_fields_) sum += bytes_of(field);
   for (const auto& field : force_) sum += bytes_of(field);
   for (const auto& field : glance_fields_) sum += bytes_of(field);

@@ -36,6 +36,8 @@ kernel::RingLane lane_of(const kernel::Pair& pair, const kernel::RingGeometry& r
 
 void NearContacts::renew(LocalContacts contacts, double margin, const double* share) {
   contacts_ = std::move(contacts);
+  ring_tallies_.keep(std::move(contacts_.ring_tallies), contacts_.shared);
+  ball_tallies_.keep(std::move(contacts_.ball_tallies), contacts_.shared);
   lanes_.clear();
   for (Index i = 0; i < contacts_.ball_begin; ++i) {
     const kernel::Pair& pair = contacts_.pairs[static_cast<std::size_t>(i)];
@@ -85,20 +87,15 @@ void NearContacts::evaluate(const NodeView& n, const StepPlan& plan, double time
   wake(motion);
   kernel::ContactArguments contact{n.x,  n.y,       n.z,    n.vx, n.vy, n.vz, n.share, plan.alpha_ring,
                                    time, booked_dt, plan.dt};
-  const kernel::RingArguments rings{contact,
-                                    contacts_.rings.data(),
-                                    contacts_.ring_tallies.data(),
-                                    static_cast<Index>(contacts_.rings.size()),
-                                    lanes_.data(),
-                                    scratch_.data(),
-                                    plan.golden,
-                                    plan.couple};
+  const kernel::RingArguments rings{
+      contact,       contacts_.rings.data(), ring_tallies_.data(), static_cast<Index>(contacts_.rings.size()),
+      lanes_.data(), scratch_.data(),        plan.golden,          plan.couple};
   load_count_ = 0;
   if (plan.rings)
     load_count_ = kernels_.ring_contacts(rings, contacts_.pairs.data(), awake_.data(), awake_rings_,
                                          gap_.data(), loads_.data());
   contact.alpha = plan.alpha_target;
-  const kernel::BallArguments balls{contact, contacts_.centers.data(), contacts_.ball_tallies.data()};
+  const kernel::BallArguments balls{contact, contacts_.centers.data(), ball_tallies_.data()};
   if (plan.balls)
     load_count_ += kernels_.ball_contacts(balls, contacts_.pairs.data(), awake_.data() + awake_rings_,
                                           awake_count_ - awake_rings_, gap_.data() + awake_rings_,

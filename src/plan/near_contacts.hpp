@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "kernels/kernel_table.hpp"
+#include "plan/own_tallies.hpp"
 #include "plan/step_plan.hpp"
 
 namespace cinch {
@@ -23,6 +24,7 @@ struct LocalContacts {
   std::vector<kernel::RingTally*> ring_tallies;  ///< ring: null where another thread books it
   std::vector<double> centers;                   ///< ball x 3, m
   std::vector<kernel::BallTally*> ball_tallies;  ///< pair: likewise; null for pairs with rings
+  bool shared = false;                           ///< among threads
 };
 
 /// The state that contacts look at; all of a thread's nodes.
@@ -35,6 +37,10 @@ class NearContacts {
   /// Takes a new list; all its pairs are awake. `margin`: the motion for which the list is good, m. `share`:
   /// node_share by node.
   void renew(LocalContacts contacts, double margin, const double* share);
+
+  /// Takes what is booked from the state and gives it back, before and after steps.
+  void take() { ring_tallies_.take(), ball_tallies_.take(); }
+  void give() const { ring_tallies_.give(), ball_tallies_.give(); }
 
   /// Evaluates the contacts at `time`, when `motion` (m: by which rings and threads can have approached each
   /// other) of the margin has gone by. Books over `booked_dt` s (0: only what is of this moment). `loads`
@@ -56,6 +62,8 @@ class NearContacts {
 
   const KernelTable& kernels_ = kernels();
   LocalContacts contacts_;
+  OwnTallies<kernel::RingTally> ring_tallies_;
+  OwnTallies<kernel::BallTally> ball_tallies_;
   std::vector<kernel::RingLane> lanes_;  ///< pair with a ring
   AlignedVector<double> scratch_;
   double window_ = 0;           ///< m

@@ -101,6 +101,12 @@ void Piece::allocate(const Model& model, const std::vector<double>& node_share) 
     link_damper_.assign(reduction_.links.size(), 0.0);
   }
   ledger_size_ = at(model.ledger_rows() * kernel::lanes);
+  if (!whole_) {
+    ledger_.assign(ledger_size_, 0.0);
+    for (Index i = 0; i < numbering_.nodes(); ++i)
+      if (numbering_.own(i) && numbering_.global[at(i)] % kernel::grain == 0)
+        own_rows_.push_back(numbering_.global[at(i)] / kernel::grain);
+  }
   set_contact_ghosts({}, node_share);
 }
 
@@ -159,6 +165,8 @@ void Piece::take(State& state) {
       fields_[f][numbering_.global.size() + i] = from[at(contact_ghosts_[i])];
   }
   if (plan_.joints) joints_.take(state, scale_.size());
+  contacts_.take();
+  if (!whole_) copy_rows(state.dissipated, ledger_);
   bind(state);
   if (step_book() == kernel::Book::power && !knows_dampers_) find_dampers();
 }
@@ -210,9 +218,19 @@ void Piece::set_dampers(const AlignedVector<double>& forces) {
   knows_dampers_ = true;
 }
 
+// Of the ledger, those that it books.
+void Piece::copy_rows(const AlignedVector<double>& from, AlignedVector<double>& to) const {
+  for (const Index row : own_rows_) {
+    const auto first = from.begin() + row * kernel::lanes;
+    std::copy(first, first + kernel::lanes, to.begin() + row * kernel::lanes);
+  }
+}
+
 void Piece::give(State& state) const {
   joints_.give(state);
+  contacts_.give();
   if (whole_) return;
+  copy_rows(ledger_, state.dissipated);
   for (std::size_t f = 0; f < 6; ++f) {
     AlignedVector<double>& to = state.*node_fields[f].values;
     for (std::size_t i = 0; i < numbering_.global.size(); ++i)
@@ -232,7 +250,7 @@ void Piece::bind(State& state) {
             force_[0].data(),
             force_[1].data(),
             force_[2].data(),
-            state.dissipated.data(),
+            whole_ ? state.dissipated.data() : ledger_.data(),
             damper_.data(),
             link_damper_.data(),
             nullptr,
@@ -423,6 +441,7 @@ void Piece::glance(State& state, double motion, Glance& out) {
   if (plan_.joints)
     for (const auto& loads : {joints_.on_threads(), joints_.on_hosts(), joints_.pushing()}) load_nodes(loads);
   hold_after(0, constraints);
+  contacts_.give();
   for (std::size_t f = 0; !whole_ && f < 3; ++f)
     for (std::size_t i = 0; i < numbering_.global.size(); ++i)
       if (numbering_.layer[i] == 0) out.gain[f][at(numbering_.global[i])] = glance_fields_[3 + f][i];
