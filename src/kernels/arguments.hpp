@@ -6,7 +6,7 @@
 namespace cinch::kernel {
 
 constexpr Index block_size = 2048;  ///< nodes that are computed and moved together, about
-constexpr Index grain = 32;         ///< nodes whose elements share one row of the ledger; whole groups
+constexpr Index grain = 64;         ///< nodes whose elements share one row of the ledger; whole groups
 constexpr Index lanes = 8;          ///< nodes and elements go in groups of so many, whatever the vector width
 constexpr Index ring_scratch = 3584;         ///< numbers that a batch of ring contacts works on
 constexpr Index sliding_scratch = 2 * 1328;  ///< numbers that a call for sliding joints works on
