@@ -59,8 +59,8 @@ Problem capture(Extent extent) {
   for (const int n : {36, 52}) p.reference.push_back({"sliding", n, 0, 0.4, false, 0});
   const std::vector<int> few = {6, 8, 12, 18, 26};
   for (const double fraction : {0.8, 0.4}) add_series(p.settings, "sliding", few, fraction, 0);
-  add_series(p.settings, "sliding", {10, 12}, 0.9,
-             0);  // longer steps are too long for contacts with the ball
+  // steps beyond 0.9 are too long for contacts with the ball
+  add_series(p.settings, "sliding", {10, 12}, 0.9, 0);
   add_papers_step(p.settings, papers_rules, {240}, {240});
   if (extent == Extent::full) {
     add_papers_step(p.settings, "contact", {240}, {});
