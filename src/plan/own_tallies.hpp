@@ -2,6 +2,7 @@
 // that lie side by side in the state would make their cores wait for each other's writes.
 #pragma once
 #include <cstddef>
+#include <utility>
 #include <vector>
 
 namespace cinch {
