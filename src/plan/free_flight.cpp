@@ -38,7 +38,8 @@ double FreeFlight::reach(const State& s, double time) {
 }
 
 void FreeFlight::put_off(const Pieces& pieces) {
-  pause_ = pause_length_ = std::min(pause_length_ + pause_length_ / 4 + 1, pause_factor(pieces.size()) * longest_pause);
+  pause_ = pause_length_ =
+      std::min(pause_length_ + pause_length_ / 4 + 1, pause_factor(pieces.size()) * longest_pause);
 }
 
 Index FreeFlight::look(const State& state, const Pieces& pieces, std::int64_t most) {
