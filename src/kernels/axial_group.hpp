@@ -73,16 +73,12 @@ CINCH_INLINE void group(const SpanView& s, std::ptrdiff_t number, Sums& sums) {
   if (with_energy(book)) sums.energy += _mm512_set1_pd(0.5) * load(row) * item.stretch * item.stretch;
 }
 #else
-/// Of a row of the ledger, lane by lane.
+/// A row of the ledger itself, lane by lane: groups add to it in place.
 struct Sums {
-  alignas(64) double energy[lanes], power[lanes];
+  double *energy, *power;
 };
-inline void read(const double* from, double (&to)[lanes]) {
-  for (Index lane = 0; lane < lanes; ++lane) to[lane] = from[lane];
-}
-inline void write(double* to, const double (&from)[lanes]) {
-  for (Index lane = 0; lane < lanes; ++lane) to[lane] = from[lane];
-}
+inline void read(double* from, double*& to) { to = from; }
+inline void write(double*, double*) {}
 
 /// What a group gives besides its forces, see Axial.
 struct GroupItems {
@@ -152,10 +148,11 @@ inline void group(const SpanView& s, std::ptrdiff_t number, Sums& sums) {
   if (forces_of_group<damped, chain, false>(s, number, items)) [[unlikely]]
     forces_of_group<damped, chain, true>(s, number, items);
   double* __restrict const before = with_power(book) ? s.damper + number * lanes : nullptr;
+  double *const energy = sums.energy, *const power = sums.power;
 #pragma omp simd
   for (std::ptrdiff_t lane = 0; lane < lanes; ++lane) {
-    if (with_energy(book)) sums.energy[lane] += items.energy[lane];
-    if (with_power(book)) sums.power[lane] += 0.5 * (items.damper[lane] + before[lane]) * items.rate[lane];
+    if (with_energy(book)) energy[lane] += items.energy[lane];
+    if (with_power(book)) power[lane] += 0.5 * (items.damper[lane] + before[lane]) * items.rate[lane];
     if (book == Book::power) before[lane] = items.damper[lane];
   }
 }
