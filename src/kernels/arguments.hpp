@@ -106,8 +106,8 @@ struct NodeArguments {
   const double *fx, *fy, *fz;        ///< force, N
   double gravity[3];                 ///< dt g, m/s
   double dt;                         ///< s
-  const double *load_x = nullptr, *load_y = nullptr,
-               *load_z = nullptr;  ///< node: standing loads, forces that hold for several steps, N
+  // node: standing loads, forces that hold for several steps, N
+  const double *load_x = nullptr, *load_y = nullptr, *load_z = nullptr;
 };
 
 /// What node_energies sums up.

@@ -96,18 +96,21 @@ void Piece::allocate(const Model& model, const std::vector<double>& node_share) 
   for (std::size_t i = 0; i < nodes; ++i)
     if (numbering_.moved(static_cast<Index>(i))) scale_[i] = plan_.dt / model.mass[at(numbering_.global[i])];
   for (auto& f : force_) f.assign(at(reduction_.force_count) * at(levels_), 0.0);
+  ledger_size_ = at(model.ledger_rows() * kernel::lanes);
   if (step_book() == kernel::Book::power) {
     damper_.assign(palette_.of_group.size() * kernel::lanes, 0.0);
     link_damper_.assign(reduction_.links.size(), 0.0);
-  }
-  ledger_size_ = at(model.ledger_rows() * kernel::lanes);
-  if (!whole_) {
-    ledger_.assign(ledger_size_, 0.0);
-    for (Index i = 0; i < numbering_.nodes(); ++i)
-      if (numbering_.own(i) && numbering_.global[at(i)] % kernel::grain == 0)
-        own_rows_.push_back(numbering_.global[at(i)] / kernel::grain);
+    if (!whole_) make_own_ledger();
   }
   set_contact_ghosts({}, node_share);
+}
+
+// Shares are whole grains: the first node of one tells whose row it is.
+void Piece::make_own_ledger() {
+  ledger_.assign(ledger_size_, 0.0);
+  for (Index i = 0; i < numbering_.nodes(); ++i)
+    if (numbering_.own(i) && numbering_.global[at(i)] % kernel::grain == 0)
+      own_rows_.push_back(numbering_.global[at(i)] / kernel::grain);
 }
 
 void Piece::set_contact_ghosts(std::vector<Index> nodes, const std::vector<double>& node_share) {
@@ -166,7 +169,7 @@ void Piece::take(State& state) {
   }
   if (plan_.joints) joints_.take(state, scale_.size());
   contacts_.take();
-  if (!whole_) copy_rows(state.dissipated, ledger_);
+  copy_rows(state.dissipated, ledger_);
   bind(state);
   if (step_book() == kernel::Book::power && !knows_dampers_) find_dampers();
 }
@@ -218,7 +221,7 @@ void Piece::set_dampers(const AlignedVector<double>& forces) {
   knows_dampers_ = true;
 }
 
-// Of the ledger, those that it books.
+// Those that it books; none of a whole piece, which books into the state itself.
 void Piece::copy_rows(const AlignedVector<double>& from, AlignedVector<double>& to) const {
   for (const Index row : own_rows_) {
     const auto first = from.begin() + row * kernel::lanes;
@@ -441,7 +444,7 @@ void Piece::glance(State& state, double motion, Glance& out) {
   if (plan_.joints)
     for (const auto& loads : {joints_.on_threads(), joints_.on_hosts(), joints_.pushing()}) load_nodes(loads);
   hold_after(0, constraints);
-  contacts_.give();
+  contacts_.give();  // the look finds them in the state
   for (std::size_t f = 0; !whole_ && f < 3; ++f)
     for (std::size_t i = 0; i < numbering_.global.size(); ++i)
       if (numbering_.layer[i] == 0) out.gain[f][at(numbering_.global[i])] = glance_fields_[3 + f][i];

@@ -94,6 +94,7 @@ class Piece {
   void allocate(const Model& model, const std::vector<double>& node_share);
   void bind(State& state);
   void find_dampers();
+  void make_own_ledger();
   void copy_rows(const AlignedVector<double>& from, AlignedVector<double>& to) const;
   NodeView view() const;
   void use_level(int level);
@@ -131,11 +132,10 @@ class Piece {
   AlignedVector<double> link_damper_;    ///< link: the same
   bool knows_dampers_ = false;
   std::size_t ledger_size_ = 0;
-  AlignedVector<double>
-      ledger_;  ///< of a piece that is not whole: rows of the ledger, of which it books some
-  std::vector<Index> own_rows_;
-  std::vector<kernel::Held> held_;            ///< constraint
-  std::vector<Index> reaction_number_;        ///< constraint: its number in the model; -1: not booked here
+  AlignedVector<double> ledger_;        ///< of a piece that is not whole, where it books: copy of the state's
+  std::vector<Index> own_rows_;         ///< of it
+  std::vector<kernel::Held> held_;      ///< constraint
+  std::vector<Index> reaction_number_;  ///< constraint: its number in the model; -1: not booked here
   std::vector<kernel::Reaction*> reactions_;  ///< constraint
   kernel::Reaction unbooked_{};
   AlignedVector<double> glance_fields_[6];  ///< what a glance moves in place of the nodes
