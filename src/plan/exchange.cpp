@@ -40,8 +40,11 @@ inline void claim(const double* line) {
 }  // namespace
 
 void Exchange::set_up(const std::vector<std::unique_ptr<Piece>>& pieces, const std::vector<int>& owner,
-                      bool everyone) {
+                      bool everyone, double dt) {
   const auto count = pieces.size();
+  dt_ = dt;
+  std::vector<std::vector<bool>> moved;  // by piece and node
+  for (const auto& piece : pieces) moved.push_back(piece->moved_by_speed());
   while (posts_.size() < count) posts_.push_back(std::make_unique<Post>());
   sent_.clear();
   sent_.resize(count);
@@ -60,13 +63,14 @@ void Exchange::set_up(const std::vector<std::unique_ptr<Piece>>& pieces, const s
         channel->receiver = static_cast<int>(receiver);
         received_[receiver].push_back(channel);
       }
-      channel->from.push_back(pieces[at(sender)]->local(ghosts[g]));
-      channel->to.push_back(places[g]);
+      const Index from = pieces[at(sender)]->local(ghosts[g]);
+      auto& passages = moved[at(sender)][at(from)] ? channel->moved : channel->told;
+      passages.push_back({from, places[g]});
     }
   }
   for (std::size_t p = 0; p < count; ++p) {
     for (const auto& channel : sent_[p]) {
-      for (auto& box : channel->box) box.assign(6 * channel->from.size(), 0.0);
+      for (auto& box : channel->box) box.assign(6 * channel->told.size() + 3 * channel->moved.size(), 0.0);
       partners_[p].push_back(channel->receiver);
     }
     for (const Channel* channel : received_[p]) partners_[p].push_back(channel->sender);
@@ -83,15 +87,30 @@ void Exchange::post(int p, Piece& piece, double greatest) {
   const std::int64_t round = mine.round.load(std::memory_order_relaxed) + 1;
   const auto side = static_cast<std::size_t>(round & 1);
   for (const auto& channel : sent_[at(p)]) {
-    const std::size_t nodes = channel->from.size();
-    for (std::size_t f = 0; f < 6; ++f) {
-      const double* const field = piece.field(f);
-      double* const box = channel->box[side].data() + f * nodes;
-      for (std::size_t k = 0; k < nodes; ++k) box[k] = field[channel->from[k]];
-    }
+    double* box = channel->box[side].data();
+    const auto put = [&](const double* field, const std::vector<Passage>& nodes) {
+      for (const Passage& node : nodes) *box++ = field[node.from];
+    };
+    for (std::size_t f = 3; f < 6; ++f) put(piece.field(f), channel->moved);
+    for (std::size_t f = 0; f < 6; ++f) put(piece.field(f), channel->told);
   }
   mine.greatest[side] = greatest;
   mine.round.store(round, std::memory_order_release);
+}
+
+// Takes over what a mailbox holds.
+void Exchange::open(const Channel& channel, const double* box, Piece& piece) const {
+  for (std::size_t f = 0; f < 3; ++f) {
+    double *const place = piece.field(f), *const speed = piece.field(f + 3);
+    for (const Passage& node : channel.moved) {
+      speed[node.to] = *box++;
+      place[node.to] += dt_ * speed[node.to];
+    }
+  }
+  for (std::size_t f = 0; f < 6; ++f) {
+    double* const field = piece.field(f);
+    for (const Passage& node : channel.told) field[node.to] = *box++;
+  }
 }
 
 double Exchange::meet(int p, Piece& piece, double greatest) {
@@ -104,14 +123,7 @@ double Exchange::meet(int p, Piece& piece, double greatest) {
   for (const Channel* channel : received_[at(p)])  // all lines at once
     for (std::size_t k = 0; k < channel->box[side].size(); k += numbers_in_line)
       __builtin_prefetch(&channel->box[side][k]);
-  for (const Channel* channel : received_[at(p)]) {
-    const std::size_t nodes = channel->to.size();
-    for (std::size_t f = 0; f < 6; ++f) {
-      double* const field = piece.field(f);
-      const double* const box = channel->box[side].data() + f * nodes;
-      for (std::size_t k = 0; k < nodes; ++k) field[channel->to[k]] = box[k];
-    }
-  }
+  for (const Channel* channel : received_[at(p)]) open(*channel, channel->box[side].data(), piece);
   for (const auto& channel : sent_[at(p)]) {  // those of the next round
     const AlignedVector<double>& box = channel->box[1 - side];
     for (std::size_t k = 0; k < box.size(); k += numbers_in_line) claim(&box[k]);

@@ -76,6 +76,13 @@ void NearContacts::wake(double motion) {
   awake_rings_ = static_cast<Index>(balls - awake_.begin());
 }
 
+std::vector<Index> NearContacts::nodes() const {
+  std::vector<Index> nodes;
+  for (const kernel::Pair& pair : contacts_.pairs) nodes.insert(nodes.end(), {pair.a, pair.b});
+  for (const kernel::RingGeometry& ring : contacts_.rings) nodes.insert(nodes.end(), {ring.a, ring.b});
+  return nodes;
+}
+
 double NearContacts::asleep_until() const {
   double until = std::numeric_limits<double>::infinity();
   for (const double pair : asleep_) until = std::min(until, pair);

@@ -47,6 +47,8 @@ class NearContacts {
   /// holds the forces then.
   void evaluate(const NodeView& nodes, const StepPlan& plan, double time, double booked_dt, double motion);
 
+  /// All nodes that may feel one.
+  std::vector<Index> nodes() const;
   /// Motion up to which nothing touches.
   double asleep_until() const;
 

@@ -37,6 +37,9 @@ class Piece {
   Index local(Index global_node) const;
   /// Local numbers of all ghosts and, in the same order, their users' numbers.
   std::vector<Index> ghost_places() const, ghosts() const;
+  /// By local node: whether what it does between two exchanges is x += dt v, to the last bit. Nothing acts on
+  /// it behind the pass that moves it.
+  std::vector<bool> moved_by_speed() const;
 
   NearContacts& contacts() { return contacts_; }
   void set_joints(SlidingJoints joints) { joints_ = std::move(joints); }

@@ -63,7 +63,7 @@ void Stepper::share_out(State& state) {
   if (plan_.contacts() && !contacts_valid_) renew_contacts(state);
   make_pieces(partition(*model_, state, contacts_, threads_));
   if (plan_.contacts()) hand_out_contacts(state);
-  else exchange_.set_up(pieces_, owner_, false);
+  else exchange_.set_up(pieces_, owner_, false, plan_.dt);
   if (!dampers_.empty()) hand_out_dampers();
 }
 
@@ -119,7 +119,7 @@ void Stepper::hand_out_contacts(State& state) {
                                         node_share_.data());
   each_by_its_thread(
       [&](int p) { hand_out(*model_, contacts_, state, owner_, p, node_share_, *pieces_[at(p)]); });
-  exchange_.set_up(pieces_, owner_, true);
+  exchange_.set_up(pieces_, owner_, true, plan_.dt);
 }
 
 void Stepper::renew_contacts(State& state) {
