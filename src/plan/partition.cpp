@@ -1,6 +1,7 @@
 #include "plan/partition.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <numeric>
 
 namespace cinch {
@@ -10,6 +11,8 @@ constexpr std::size_t at(Index i) { return static_cast<std::size_t>(i); }
 
 // Costs in units of one element's update, as bench_element.cpp and bench_contact.cpp measure them.
 constexpr double node_cost = 0.6, pair_cost = 8, host_cost = 15;
+// What two threads need of each other costs as many: computed twice, and fetched from the other one's cache.
+constexpr double border_cost = 6;
 
 Index grain_of(Index node) { return node / kernel::grain; }
 
@@ -40,53 +43,117 @@ std::vector<double> places(const AlignedVector<double>& axis, std::size_t grains
   return mean;
 }
 
-// Piece of each grain: the grains in the given order cut into stretches of equal cost.
-std::vector<int> cut(const std::vector<double>& cost, const std::vector<std::size_t>& order, int pieces) {
-  const double total = std::accumulate(cost.begin(), cost.end(), 0.0);
-  std::vector<int> piece(cost.size());
-  double before = 0;
-  for (const std::size_t g : order) {
-    const double middle = before + 0.5 * cost[g];
-    piece[g] = std::min(pieces - 1, static_cast<int>(middle / total * pieces));
-    before += cost[g];
-  }
-  return piece;
-}
+// What two grains cost more if different threads have them.
+struct Border {
+  std::size_t a, b;
+  double cost;
+};
 
-// What is computed by more than one thread, and how uneven the shares are.
-double waste(const Model& model, const ContactList& contacts, const std::vector<double>& cost,
-             const std::vector<int>& piece, int pieces) {
-  const auto piece_of = [&](Index node) { return piece[at(grain_of(node))]; };
-  double twice = 0;
-  for (std::size_t e = 0; e < at(model.elements); ++e)
-    twice += piece_of(model.end_a[e]) != piece_of(model.end_b[e]);
+std::vector<Border> find_borders(const Model& model, const ContactList& contacts) {
+  std::vector<Border> borders;
+  const auto add = [&](Index node, Index other) {
+    const std::size_t a = at(grain_of(node)), b = at(grain_of(other));
+    if (a == b) return;
+    if (borders.empty() || borders.back().a != a || borders.back().b != b) borders.push_back({a, b, 0});
+    borders.back().cost += border_cost;
+  };
+  for (std::size_t e = 0; e < at(model.elements); ++e) add(model.end_a[e], model.end_b[e]);
   for (std::size_t r = 0; r + 1 < contacts.ring_begin.size(); ++r)
     for (Index i = contacts.ring_begin[r]; i < contacts.ring_begin[r + 1]; ++i)
-      twice += piece_of(contacts.pairs[at(i)].a) != piece_of(model.rings[r].a);
-  std::vector<double> share(at(pieces), 0.0);
-  for (std::size_t g = 0; g < cost.size(); ++g) share[at(piece[g])] += cost[g];
-  return *std::max_element(share.begin(), share.end()) + twice / pieces;
+      add(contacts.pairs[at(i)].a, model.rings[r].a);
+  return borders;
 }
+
+struct Grains {
+  std::vector<double> cost;
+  std::vector<Border> borders;
+  std::vector<double> along[4];  ///< ways to line grains up
+};
+
+Grains grains_of(const Model& model, const State& state, const ContactList& contacts) {
+  Grains grains{grain_costs(model, contacts), find_borders(model, contacts), {}};
+  grains.along[0].resize(grains.cost.size());
+  std::iota(grains.along[0].begin(), grains.along[0].end(), 0.0);
+  const AlignedVector<double>* const axes[3] = {&state.x, &state.y, &state.z};
+  for (std::size_t d = 0; d < 3; ++d) grains.along[1 + d] = places(*axes[d], grains.cost.size());
+  return grains;
+}
+
+// Cuts grains in two again and again, each time across the way that costs least.
+class Bisection {
+ public:
+  explicit Bisection(const Grains& grains) : grains_(grains), piece_(grains.cost.size(), 0) {}
+
+  /// Shares out `some` among pieces number `first` and on.
+  void share_out(std::vector<std::size_t> some, int first, int pieces) {
+    if (pieces == 1 || some.empty()) return assign(some, first);
+    const int left = pieces / 2;
+    std::vector<std::size_t> best;
+    std::size_t split = 0;
+    double least = HUGE_VAL;
+    for (const std::vector<double>& along : grains_.along) {
+      std::stable_sort(some.begin(), some.end(),
+                       [&](std::size_t l, std::size_t r) { return along[l] < along[r]; });
+      const std::size_t middle = cut(some, left, pieces);
+      if (const double costs = cost_of(some, middle, left, pieces); costs < least)
+        best = some, split = middle, least = costs;
+    }
+    const auto middle = best.begin() + static_cast<std::ptrdiff_t>(split);
+    share_out({best.begin(), middle}, first, left);
+    share_out({middle, best.end()}, first + left, pieces - left);
+  }
+
+  const std::vector<int>& piece() const { return piece_; }  ///< grain
+
+ private:
+  void assign(const std::vector<std::size_t>& some, int piece) {
+    for (const std::size_t g : some) piece_[g] = piece;
+  }
+
+  double sum(const std::vector<std::size_t>& some, std::size_t begin, std::size_t end) const {
+    double costs = 0;
+    for (std::size_t i = begin; i < end; ++i) costs += grains_.cost[some[i]];
+    return costs;
+  }
+
+  // How many of the grains, in their order, make up the cost of `left` of `pieces`.
+  std::size_t cut(const std::vector<std::size_t>& some, int left, int pieces) const {
+    const double wanted = sum(some, 0, some.size()) * left / pieces;
+    double before = 0;
+    std::size_t count = 0;
+    for (; count < some.size(); ++count) {
+      const double cost = grains_.cost[some[count]];
+      if (before + 0.5 * cost > wanted) break;
+      before += cost;
+    }
+    return count;
+  }
+
+  // Of the most expensive piece, as if one had all of the border.
+  double cost_of(const std::vector<std::size_t>& some, std::size_t middle, int left, int pieces) {
+    side_.assign(grains_.cost.size(), 0);
+    for (std::size_t i = 0; i < some.size(); ++i) side_[some[i]] = i < middle ? -1 : 1;
+    double border = 0;
+    for (const Border& b : grains_.borders)
+      if (side_[b.a] * side_[b.b] < 0) border += b.cost;
+    return border + std::max(sum(some, 0, middle) / left, sum(some, middle, some.size()) / (pieces - left));
+  }
+
+  const Grains& grains_;
+  std::vector<int> piece_, side_;  ///< grain
+};
 
 }  // namespace
 
 std::vector<std::vector<Index>> partition(const Model& model, const State& state, const ContactList& contacts,
                                           int pieces) {
-  const std::vector<double> cost = grain_costs(model, contacts);
-  std::vector<std::size_t> order(cost.size());
-  std::iota(order.begin(), order.end(), std::size_t{0});
-  std::vector<int> best = cut(cost, order, pieces);
-  double least = waste(model, contacts, cost, best, pieces);
-  for (const auto* axis : {&state.x, &state.y, &state.z}) {
-    const std::vector<double> along = places(*axis, cost.size());
-    std::stable_sort(order.begin(), order.end(),
-                     [&](std::size_t l, std::size_t r) { return along[l] < along[r]; });
-    const std::vector<int> trial = cut(cost, order, pieces);
-    const double wasted = waste(model, contacts, cost, trial, pieces);
-    if (wasted < least) best = trial, least = wasted;
-  }
+  const Grains grains = grains_of(model, state, contacts);
+  std::vector<std::size_t> all(grains.cost.size());
+  std::iota(all.begin(), all.end(), std::size_t{0});
+  Bisection bisection(grains);
+  bisection.share_out(all, 0, pieces);
   std::vector<std::vector<Index>> shares(at(pieces));
-  for (Index i = 0; i < model.nodes; ++i) shares[at(best[at(grain_of(i))])].push_back(i);
+  for (Index i = 0; i < model.nodes; ++i) shares[at(bisection.piece()[at(grain_of(i))])].push_back(i);
   return shares;
 }
 
