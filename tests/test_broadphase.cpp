@@ -283,6 +283,28 @@ TEST(Broadphase, TheMarginDoesNotChangeTheMotion) {
   EXPECT_GT(lists[2], lists[3]);
 }
 
+TEST(Broadphase, ThreadsFindTheSamePairs) {
+  Built b(net_with_rings(50));
+  scatter(b, 1, {0, 0, 0}, 0.01, 5);
+  ContactList alone(b.model, 0.02);
+  alone.rebuild(b.model, b.state);
+  EXPECT_GT(alone.pairs.size(), 1000u);
+  for (const int threads : {2, 5}) {
+    ContactList shared(b.model, 0.02, threads);
+    for (int once_more = 0; once_more < 2; ++once_more) {
+      shared.rebuild(b.model, b.state);
+      EXPECT_EQ(shared.ring_begin, alone.ring_begin);
+      EXPECT_EQ(shared.ball_begin, alone.ball_begin);
+      ASSERT_EQ(shared.pairs.size(), alone.pairs.size());
+      for (std::size_t i = 0; i < alone.pairs.size(); ++i) {
+        EXPECT_EQ(shared.pairs[i].element, alone.pairs[i].element) << "pair " << i;
+        EXPECT_EQ(shared.pairs[i].with, alone.pairs[i].with) << "pair " << i;
+      }
+    }
+    EXPECT_EQ(shared.pairs_tested(), 2 * alone.pairs_tested());
+  }
+}
+
 // Tests of boxes and elements for one list.
 std::int64_t pairs_tested(const Built& b, State state) {
   ContactList list(b.model, 0.0025);

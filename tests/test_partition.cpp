@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <initializer_list>
+#include <random>
 #include <set>
 
 #include "input/case_reader.hpp"
@@ -64,6 +66,50 @@ TEST_F(Partition, OfACaptureHalvesNetAndThreadsTogether) {
     }
   EXPECT_GT(pairs, 30);
   EXPECT_LE(shared, pairs / 8) << "evaluated by both threads";
+}
+
+// What a piece needs of the others, by piece.
+std::vector<std::size_t> foreign_nodes(const Model& model, const ContactList& contacts,
+                                       const std::vector<std::vector<Index>>& shares) {
+  std::vector<std::size_t> owner(static_cast<std::size_t>(model.nodes));
+  for (std::size_t p = 0; p < shares.size(); ++p)
+    for (const Index node : shares[p]) owner[static_cast<std::size_t>(node)] = p;
+  std::vector<std::set<Index>> needed(shares.size());
+  const auto meet = [&](std::initializer_list<Index> nodes) {
+    for (const Index node : nodes)
+      for (const Index other : nodes) needed[owner[static_cast<std::size_t>(node)]].insert(other);
+  };
+  for (std::size_t e = 0; e < static_cast<std::size_t>(model.elements); ++e)
+    meet({model.end_a[e], model.end_b[e]});
+  for (std::size_t r = 0; r + 1 < contacts.ring_begin.size(); ++r)
+    for (Index i = contacts.ring_begin[r]; i < contacts.ring_begin[r + 1]; ++i) {
+      const kernel::Pair& pair = contacts.pairs[static_cast<std::size_t>(i)];
+      meet({pair.a, pair.b, model.rings[r].a, model.rings[r].b});
+    }
+  std::vector<std::size_t> foreign;
+  for (std::size_t p = 0; p < shares.size(); ++p) foreign.push_back(needed[p].size() - shares[p].size());
+  return foreign;
+}
+
+// Threads that run along the edges of a net waver: cut across the wrong axis, pieces share them node by node.
+TEST(PartitionOfALargeCapture, CutsThreadsAlongEdgesAcross) {
+  Simulation simulation(read_case(CINCH_SOURCE_DIR "/cases/large_capture.toml",
+                                  {{"closing.time_s", "1e-5"}, {"time.end_s", "2e-5"}}),
+                        1);
+  simulation.advance_to(std::llround(1.5e-5 / simulation.preparation().dt));
+  State state = simulation.state();
+  std::mt19937 random(3);
+  std::uniform_real_distribution<double> wavering(-0.01, 0.01);
+  for (auto* axis : {&state.x, &state.y, &state.z})
+    for (double& place : *axis) place += wavering(random);
+  const ContactList& contacts = simulation.stepper().contacts();
+  constexpr int pieces = 16;
+  const auto shares = partition(simulation.model(), state, contacts, pieces);
+  std::size_t most = 0;
+  for (const auto& share : shares) most = std::max(most, share.size());
+  EXPECT_LT(most, 3 * static_cast<std::size_t>(simulation.model().nodes) / pieces / 2);
+  const auto foreign = foreign_nodes(simulation.model(), contacts, shares);
+  EXPECT_LT(*std::max_element(foreign.begin(), foreign.end()), 1000u) << "a line of the net has 201 nodes";
 }
 
 }  // namespace

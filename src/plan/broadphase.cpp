@@ -1,6 +1,7 @@
 #include "plan/broadphase.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -19,22 +20,40 @@ void grow(Box& box, const Box& other) {
   }
 }
 
-void grow(Box& box, const State& state, Index node) {
-  const auto i = static_cast<std::size_t>(node);
-  const double at[3] = {state.x[i], state.y[i], state.z[i]};
-  for (int d = 0; d < 3; ++d) {
-    box.low[d] = std::min(box.low[d], at[d]);
-    box.high[d] = std::max(box.high[d], at[d]);
-  }
+// A region of threads costs as much as some thousand elements.
+constexpr std::size_t worth_sharing = 500;  ///< boxes
+
+void grow(double place, double& low, double& high) {
+  low = place < low ? place : low;
+  high = place > high ? place : high;
 }
 
-double distance_to_box(const Box& box, const Vec3& point) {
+void grow(Box& box, const State& state, Index node) {
+  const auto i = static_cast<std::size_t>(node);
+  grow(state.x[i], box.low[0], box.high[0]);
+  grow(state.y[i], box.low[1], box.high[1]);
+  grow(state.z[i], box.low[2], box.high[2]);
+}
+
+Box box_around(const Model& model, const ContactSet& set, const State& state, std::size_t begin,
+               std::size_t end) {
+  Box box = empty_box();
+  Index last = -1;  // elements of a thread share nodes
+  for (std::size_t i = begin; i < end; ++i) {
+    const auto e = static_cast<std::size_t>(set.elements[i]);
+    if (model.end_a[e] != last) grow(box, state, model.end_a[e]);
+    grow(box, state, last = model.end_b[e]);
+  }
+  return box;
+}
+
+double squared_distance_to_box(const Box& box, const Vec3& point) {
   double squared = 0;
   for (int d = 0; d < 3; ++d) {
     const double outside = std::max({box.low[d] - point[d], 0.0, point[d] - box.high[d]});
     squared += outside * outside;
   }
-  return std::sqrt(squared);
+  return squared;
 }
 
 Vec3 place(const State& state, Index node) {
@@ -51,17 +70,15 @@ double distance_to_element(const State& state, Index a, Index b, const Vec3& cen
   return (start + t * along - center).norm();
 }
 
-void BoxTree::build(const Model& model, const ContactSet& set, const State& state) {
+void BoxTree::build(const Model& model, const ContactSet& set, const State& state, int threads) {
   levels_.clear();
-  const auto count = static_cast<Index>(set.elements.size());
+  const std::size_t count = set.elements.size();
   if (count == 0) return;
-  std::vector<Box> boxes(static_cast<std::size_t>((count + leaf_size - 1) / leaf_size), empty_box());
-  for (Index i = 0; i < count; ++i) {
-    const auto e = static_cast<std::size_t>(set.elements[static_cast<std::size_t>(i)]);
-    Box& box = boxes[static_cast<std::size_t>(i / leaf_size)];
-    grow(box, state, model.end_a[e]);
-    grow(box, state, model.end_b[e]);
-  }
+  std::vector<Box> boxes((count + leaf_size - 1) / leaf_size);
+#pragma omp parallel for num_threads(threads) \
+    schedule(static) if (threads > 1 && boxes.size() > worth_sharing)
+  for (std::size_t b = 0; b < boxes.size(); ++b)
+    boxes[b] = box_around(model, set, state, b * leaf_size, std::min((b + 1) * leaf_size, count));
   levels_.push_back(std::move(boxes));
   while (levels_.back().size() > 1) {
     const std::vector<Box>& below = levels_.back();
@@ -77,15 +94,16 @@ void BoxTree::query(const Model& model, const ContactSet& set, const State& stat
   struct Visit {
     std::size_t level, box;
   };
-  std::vector<Visit> open{{levels_.size() - 1, 0}};
-  while (!open.empty()) {
-    const auto [level, box] = open.back();
-    open.pop_back();
+  std::array<Visit, 64> open;  // one more than levels are enough
+  std::size_t count = 0;
+  open[count++] = {levels_.size() - 1, 0};
+  while (count > 0) {
+    const auto [level, box] = open[--count];
     ++pairs_tested;
-    if (distance_to_box(levels_[level][box], center) > distance) continue;
+    if (squared_distance_to_box(levels_[level][box], center) > distance * distance) continue;
     if (level > 0) {  // the later child first onto the stack, so that elements come out in ascending order
-      if (2 * box + 1 < levels_[level - 1].size()) open.push_back({level - 1, 2 * box + 1});
-      open.push_back({level - 1, 2 * box});
+      if (2 * box + 1 < levels_[level - 1].size()) open[count++] = {level - 1, 2 * box + 1};
+      open[count++] = {level - 1, 2 * box};
       continue;
     }
     const std::size_t end = std::min((box + 1) * leaf_size, set.elements.size());

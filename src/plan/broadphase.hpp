@@ -23,8 +23,8 @@ class BoxTree {
  public:
   static constexpr Index leaf_size = 8;
 
-  /// Boxes of the set's elements as they lie now.
-  void build(const Model& model, const ContactSet& set, const State& state);
+  /// Boxes of the set's elements as they lie now. Up to `threads` share the work.
+  void build(const Model& model, const ContactSet& set, const State& state, int threads);
   /// Appends the positions in the set of all elements that lie within `distance` (m, centre lines) of
   /// `center`.
   void query(const Model& model, const ContactSet& set, const State& state, const Vec3& center,

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <numeric>
 
 #include "kernels/contact_law.hpp"
 
@@ -10,7 +11,9 @@ namespace {
 
 constexpr std::size_t at(Index i) { return static_cast<std::size_t>(i); }
 
-constexpr double margin_lengths = 2;  ///< automatic margin over the mean element length of the finest set
+constexpr std::size_t worth_sharing =
+    64;                               ///< rings: a region of threads costs as much as the search for some
+constexpr double margin_lengths = 4;  ///< automatic margin over the mean element length of the finest set
 
 double automatic_margin(const Model& model) {
   double margin = std::numeric_limits<double>::infinity();
@@ -113,8 +116,10 @@ void begin_tallies(std::vector<kernel::BallTally>& tallies, std::size_t pairs) {
 
 }  // namespace
 
-ContactList::ContactList(const Model& model, double margin)
-    : margin_(margin > 0 ? margin : automatic_margin(model)), trees_(model.contact_sets.size()) {
+ContactList::ContactList(const Model& model, double margin, int threads)
+    : margin_(margin > 0 ? margin : automatic_margin(model)),
+      trees_(model.contact_sets.size()),
+      searches_(at(threads)) {
   for (std::size_t r = 0; r < model.rings.size(); ++r)
     if (model.ring_host_length[r] > 0)
       turning_ = std::max(turning_, 1 + model.rings[r].radius / model.ring_host_length[r]);
@@ -122,7 +127,8 @@ ContactList::ContactList(const Model& model, double margin)
 
 void ContactList::rebuild(const Model& model, State& state) {
   ++rebuilds_;
-  for (std::size_t s = 0; s < trees_.size(); ++s) trees_[s].build(model, model.contact_sets[s], state);
+  for (std::size_t s = 0; s < trees_.size(); ++s)
+    trees_[s].build(model, model.contact_sets[s], state, static_cast<int>(searches_.size()));
   pairs.clear();
   find_ring_pairs(model, state);
   find_ball_pairs(model, state);
@@ -167,30 +173,51 @@ void ContactList::require_ranges(const Archive& archive, const Model& model, std
   if (!whole) archive.refuse("contacts", "does not fit the rings and targets of the case");
 }
 
+std::int64_t ContactList::pairs_tested() const {
+  std::int64_t sum = 0;
+  for (const Search& search : searches_) sum += search.tested;
+  return sum;
+}
+
+void ContactList::find_near_ring(const Model& model, const State& state, std::size_t r,
+                                 Search& search) const {
+  const auto set_number = at(model.ring_set[r]);
+  search.positions.clear();
+  trees_[set_number].query(model, model.contact_sets[set_number], state, ring_center(state, model.rings[r]),
+                           model.rings[r].reach + margin_, search.positions, search.tested);
+  for (const Index position : search.positions) search.pairs.push_back(pair_with_ring(model, position, r));
+}
+
+// Each thread takes some of the rings, one after another.
 void ContactList::find_ring_pairs(const Model& model, const State& state) {
-  ring_begin.assign(1, 0);
-  for (std::size_t r = 0; r < model.rings.size(); ++r) {
-    const auto set_number = at(model.ring_set[r]);
-    const ContactSet& set = model.contact_sets[set_number];
-    const kernel::RingGeometry& ring = model.rings[r];
-    found_.clear();
-    trees_[set_number].query(model, set, state, ring_center(state, ring), ring.reach + margin_, found_,
-                             pairs_tested_);
-    for (const Index position : found_) pairs.push_back(pair_with_ring(model, position, r));
-    ring_begin.push_back(static_cast<Index>(pairs.size()));
+  const std::size_t rings = model.rings.size(), shares = rings < worth_sharing ? 1 : searches_.size();
+  ring_begin.assign(rings + 1, 0);
+#pragma omp parallel for num_threads(static_cast <int>(shares)) schedule(static, 1) if (shares > 1)
+  for (std::size_t share = 0; share < shares; ++share) {
+    Search& search = searches_[share];
+    search.pairs.clear();
+    for (std::size_t r = rings * share / shares; r < rings * (share + 1) / shares; ++r) {
+      const std::size_t before = search.pairs.size();
+      find_near_ring(model, state, r, search);
+      ring_begin[r + 1] = static_cast<Index>(search.pairs.size() - before);
+    }
   }
+  std::partial_sum(ring_begin.begin(), ring_begin.end(), ring_begin.begin());
+  for (std::size_t share = 0; share < shares; ++share)
+    pairs.insert(pairs.end(), searches_[share].pairs.begin(), searches_[share].pairs.end());
 }
 
 void ContactList::find_ball_pairs(const Model& model, const State& state) {
   ball_begin.assign(1, static_cast<Index>(pairs.size()));
+  Search& search = searches_.front();
   for (std::size_t b = 0; b < model.balls.size(); ++b) {
     const Model::Ball& ball = model.balls[b];
     const auto with = static_cast<Index>(b);
     const ContactSet& set = model.contact_sets[at(ball.set)];
-    found_.clear();
-    trees_[at(ball.set)].query(model, set, state, ball.center, ball.radius + set.thickest + margin_, found_,
-                               pairs_tested_);
-    for (const Index position : found_) pairs.push_back(pair_with_ball(model, position, b));
+    search.positions.clear();
+    trees_[at(ball.set)].query(model, set, state, ball.center, ball.radius + set.thickest + margin_,
+                               search.positions, search.tested);
+    for (const Index position : search.positions) pairs.push_back(pair_with_ball(model, position, b));
     for (const Model::Sphere& sphere : ball.spheres)
       if (distance_to_element(state, sphere.node, sphere.node, ball.center) <=
           ball.radius + sphere.radius + margin_)

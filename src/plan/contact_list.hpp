@@ -18,11 +18,11 @@ inline constexpr double jump_share = 0.5;
 
 class ContactList {
  public:
-  /// `margin` in m; 0: some unstretched element lengths of the finest set.
-  ContactList(const Model& model, double margin);
+  /// `margin` in m; 0: some unstretched element lengths of the finest set. Up to `threads` search at once.
+  ContactList(const Model& model, double margin, int threads = 1);
 
-  /// Finds all pairs anew. The tallies of the balls' old pairs are summed up into one, those of new pairs
-  /// begin.
+  /// Finds all pairs anew, the same for any number of threads. The tallies of the balls' old pairs are summed
+  /// up into one, those of new pairs begin.
   void rebuild(const Model& model, State& state);
 
   /// Saves or restores the pairs, as they were found in a state that is gone.
@@ -36,7 +36,7 @@ class ContactList {
   /// No pair that approaches by less within a step can pass through each other unnoticed, m.
   double longest_approach() const { return longest_approach_; }
   std::int64_t rebuilds() const { return rebuilds_; }
-  std::int64_t pairs_tested() const { return pairs_tested_; }
+  std::int64_t pairs_tested() const;
   std::size_t memory() const;  ///< bytes, see memory.hpp
 
   std::vector<kernel::Pair> pairs;  ///< those of the rings in order, then those of the balls; each by element
@@ -45,6 +45,13 @@ class ContactList {
 
  private:
   void require_ranges(const Archive& archive, const Model& model, std::int64_t pair_count) const;
+  /// What one thread finds.
+  struct Search {
+    std::vector<Index> positions;  ///< in a set
+    std::vector<kernel::Pair> pairs;
+    std::int64_t tested = 0;
+  };
+  void find_near_ring(const Model& model, const State& state, std::size_t ring, Search& search) const;
   void find_ring_pairs(const Model& model, const State& state);
   void find_ball_pairs(const Model& model, const State& state);
 
@@ -52,9 +59,9 @@ class ContactList {
 
   double margin_, turning_ = 1;
   double longest_approach_ = std::numeric_limits<double>::infinity();
-  std::vector<BoxTree> trees_;  ///< contact set
-  std::vector<Index> found_;
-  std::int64_t rebuilds_ = 0, pairs_tested_ = 0;
+  std::vector<BoxTree> trees_;    ///< contact set
+  std::vector<Search> searches_;  ///< thread
+  std::int64_t rebuilds_ = 0;
 };
 
 }  // namespace cinch

@@ -39,41 +39,54 @@ inline void claim(const double* line) {
 
 }  // namespace
 
+// One for each piece that has nodes which this one needs.
+Exchange::Channels Exchange::channels_to(std::size_t receiver,
+                                         const std::vector<std::unique_ptr<Piece>>& pieces,
+                                         const std::vector<int>& owner,
+                                         const std::vector<std::vector<bool>>& moved) {
+  const std::vector<Index> ghosts = pieces[receiver]->ghosts(), places = pieces[receiver]->ghost_places();
+  Channels channels;
+  std::vector<Channel*> from_sender(pieces.size(), nullptr);
+  for (std::size_t g = 0; g < ghosts.size(); ++g) {
+    const auto sender = at(owner[at(ghosts[g])]);
+    Channel*& channel = from_sender[sender];
+    if (channel == nullptr) {
+      channels.push_back(std::make_unique<Channel>());
+      channel = channels.back().get();
+      channel->sender = static_cast<int>(sender);
+      channel->receiver = static_cast<int>(receiver);
+    }
+    const Index from = pieces[sender]->local(ghosts[g]);
+    (moved[sender][at(from)] ? channel->moved : channel->told).push_back({from, places[g]});
+  }
+  for (const auto& channel : channels)
+    for (auto& box : channel->box) box.assign(6 * channel->told.size() + 3 * channel->moved.size(), 0.0);
+  return channels;
+}
+
 void Exchange::set_up(const std::vector<std::unique_ptr<Piece>>& pieces, const std::vector<int>& owner,
                       bool everyone, double dt) {
   const auto count = pieces.size();
   dt_ = dt;
-  std::vector<std::vector<bool>> moved;  // by piece and node
-  for (const auto& piece : pieces) moved.push_back(piece->moved_by_speed());
   while (posts_.size() < count) posts_.push_back(std::make_unique<Post>());
-  sent_.clear();
-  sent_.resize(count);
-  received_.assign(count, {});
+  sent_.assign(count, {});
+  received_.resize(count);
   partners_.assign(count, {});
-  for (std::size_t receiver = 0; receiver < count; ++receiver) {
-    const std::vector<Index> ghosts = pieces[receiver]->ghosts(), places = pieces[receiver]->ghost_places();
-    std::vector<Channel*> from_sender(count, nullptr);
-    for (std::size_t g = 0; g < ghosts.size(); ++g) {
-      const int sender = owner[at(ghosts[g])];
-      Channel*& channel = from_sender[at(sender)];
-      if (channel == nullptr) {
-        sent_[at(sender)].push_back(std::make_unique<Channel>());
-        channel = sent_[at(sender)].back().get();
-        channel->sender = sender;
-        channel->receiver = static_cast<int>(receiver);
-        received_[receiver].push_back(channel);
-      }
-      const Index from = pieces[at(sender)]->local(ghosts[g]);
-      auto& passages = moved[at(sender)][at(from)] ? channel->moved : channel->told;
-      passages.push_back({from, places[g]});
-    }
+  std::vector<std::vector<bool>> moved(count);  // by piece and node
+#pragma omp parallel num_threads(static_cast <int>(count))
+  {
+#pragma omp for schedule(static, 1)
+    for (std::size_t p = 0; p < count; ++p) moved[p] = pieces[p]->moved_by_speed();
+#pragma omp for schedule(static, 1)
+    for (std::size_t p = 0; p < count; ++p) received_[p] = channels_to(p, pieces, owner, moved);
   }
-  for (std::size_t p = 0; p < count; ++p) {
-    for (const auto& channel : sent_[p]) {
-      for (auto& box : channel->box) box.assign(6 * channel->told.size() + 3 * channel->moved.size(), 0.0);
-      partners_[p].push_back(channel->receiver);
+  for (const Channels& channels : received_)
+    for (const auto& channel : channels) {
+      sent_[at(channel->sender)].push_back(channel.get());
+      partners_[at(channel->sender)].push_back(channel->receiver);
+      partners_[at(channel->receiver)].push_back(channel->sender);
     }
-    for (const Channel* channel : received_[p]) partners_[p].push_back(channel->sender);
+  for (std::size_t p = 0; p < count; ++p) {
     if (everyone)
       for (std::size_t q = 0; q < count; ++q) partners_[p].push_back(static_cast<int>(q));
     std::sort(partners_[p].begin(), partners_[p].end());
@@ -86,7 +99,7 @@ void Exchange::post(int p, Piece& piece, double greatest) {
   Post& mine = *posts_[at(p)];
   const std::int64_t round = mine.round.load(std::memory_order_relaxed) + 1;
   const auto side = static_cast<std::size_t>(round & 1);
-  for (const auto& channel : sent_[at(p)]) {
+  for (Channel* channel : sent_[at(p)]) {
     double* box = channel->box[side].data();
     const auto put = [&](const double* field, const std::vector<Passage>& nodes) {
       for (const Passage& node : nodes) *box++ = field[node.from];
@@ -120,11 +133,11 @@ double Exchange::meet(int p, Piece& piece, double greatest) {
     wait_for(posts_[at(q)]->round, round);
     greatest = std::max(greatest, posts_[at(q)]->greatest[side]);
   }
-  for (const Channel* channel : received_[at(p)])  // all lines at once
+  for (const auto& channel : received_[at(p)])  // all lines at once
     for (std::size_t k = 0; k < channel->box[side].size(); k += numbers_in_line)
       __builtin_prefetch(&channel->box[side][k]);
-  for (const Channel* channel : received_[at(p)]) open(*channel, channel->box[side].data(), piece);
-  for (const auto& channel : sent_[at(p)]) {  // those of the next round
+  for (const auto& channel : received_[at(p)]) open(*channel, channel->box[side].data(), piece);
+  for (const Channel* channel : sent_[at(p)]) {  // those of the next round
     const AlignedVector<double>& box = channel->box[1 - side];
     for (std::size_t k = 0; k < box.size(); k += numbers_in_line) claim(&box[k]);
   }

@@ -49,8 +49,9 @@ std::size_t BoxTree::memory() const {
 }
 
 std::size_t ContactList::memory() const {
-  std::size_t sum = bytes_of(pairs, ring_begin, ball_begin, found_);
+  std::size_t sum = bytes_of(pairs, ring_begin, ball_begin, searches_);
   for (const BoxTree& tree : trees_) sum += tree.memory();
+  for (const Search& search : searches_) sum += bytes_of(search.positions, search.pairs);
   return sum;
 }
 

@@ -156,7 +156,6 @@ std::vector<Index> Piece::ghosts() const {
 
 std::vector<bool> Piece::moved_by_speed() const {
   std::vector<bool> moved(scale_.size(), levels_ == 1);
-  for (const kernel::Constraint& constraint : constraints_) moved[at(constraint.node)] = false;
   for (const kernel::Kick& kick : reduction_.kicks) moved[at(kick.node)] = false;
   for (const auto& nodes : {contacts_.nodes(), joints_.nodes_needed()})
     for (const Index node : nodes) moved[at(node)] = false;

@@ -37,8 +37,8 @@ class Piece {
   Index local(Index global_node) const;
   /// Local numbers of all ghosts and, in the same order, their users' numbers.
   std::vector<Index> ghost_places() const, ghosts() const;
-  /// By local node: whether what it does between two exchanges is x += dt v, to the last bit. Nothing acts on
-  /// it behind the pass that moves it.
+  /// By local node: whether it does x += dt v between two exchanges, to the last bit, as all do on which
+  /// nothing acts behind the pass that moves them but supports.
   std::vector<bool> moved_by_speed() const;
 
   NearContacts& contacts() { return contacts_; }

@@ -21,7 +21,7 @@ Stepper::Stepper(const Model& model, const StepPlan& plan, std::vector<double> n
       plan_(plan),
       threads_(threads),
       node_share_(std::move(node_share)),
-      contacts_(model, plan.margin) {
+      contacts_(model, plan.margin, threads) {
   if (threads_ == 1) pieces_.push_back(std::make_unique<Piece>(model, plan_, node_share_));
   if (plan_.fly && plan_.flight_obstacle(model).empty()) flight_.emplace(model, plan_);
 }
