@@ -13,10 +13,12 @@
 #include "plan/contact_list.hpp"
 #include "plan/simulation.hpp"
 #include "store/fields.hpp"
+#include "support/quick_cases.hpp"
 
 namespace {
 
 using namespace cinch;
+using test::large_capture_with;
 using Sets = std::vector<Override>;
 
 constexpr std::size_t at(Index i) { return static_cast<std::size_t>(i); }
@@ -25,18 +27,9 @@ Scene read(const std::string& name, const Sets& sets = {}) {
   return read_case(std::string(CINCH_SOURCE_DIR) + "/cases/" + name + ".toml", sets);
 }
 
-// The large capture with a net of `columns` meshes a side, a ring in each mesh of each edge.
 Scene net_with_rings(int columns) {
-  const std::string size = std::to_string(0.1 * columns), length = std::to_string(0.1 * columns + 0.2);
-  Sets sets{{"net.main.size_m", "[" + size + ", " + size + "]"}, {"time.step_s", "1e-6"}};
-  for (const char* thread : {"c_top", "c_right", "c_bottom", "c_left"}) {
-    sets.push_back({std::string("thread.") + thread + ".elements", std::to_string(20 * (columns + 2))});
-    sets.push_back({std::string("thread.") + thread + ".length_m", length});
-  }
-  for (const char* mechanism : {"m1", "m2", "m3", "m4"}) {
-    sets.push_back({std::string("mechanism.") + mechanism + ".towing_length_m", "0.1"});
-    sets.push_back({std::string("mechanism.") + mechanism + ".towing_elements", "1"});
-  }
+  Sets sets = large_capture_with(columns);
+  sets.push_back({"time.step_s", "1e-6"});
   return read("large_capture", sets);
 }
 

@@ -53,22 +53,29 @@ inline Case capture() {
 }
 
 // The large capture at 0.5 m instead of 20 m, with narrow rings.
-inline Case small_large_capture() {
-  Case one{"large_capture",
-           {{"net.main.size_m", "[0.5, 0.5]"},
-            {"closing.time_s", "0.0002"},
-            {"rings.r.diameter_m", "0.0142"},
-            {"target.ball.radius_m", "0.2"},
-            {"target.ball.center_m", "[0.05, 0.05, 0.2008]"}},
-           800};
+/// What makes the large capture one with a net of `columns` meshes a side, a ring in each mesh of each edge.
+inline std::vector<Override> large_capture_with(int columns) {
+  const std::string size = std::to_string(0.1 * columns), length = std::to_string(0.1 * columns + 0.2);
+  std::vector<Override> sets{{"net.main.size_m", "[" + size + ", " + size + "]"}};
   for (const char* thread : {"c_top", "c_right", "c_bottom", "c_left"}) {
-    one.sets.push_back({std::string("thread.") + thread + ".elements", "70"});
-    one.sets.push_back({std::string("thread.") + thread + ".length_m", "0.7"});
+    sets.push_back({std::string("thread.") + thread + ".elements", std::to_string(20 * (columns + 2))});
+    sets.push_back({std::string("thread.") + thread + ".length_m", length});
   }
   for (const char* mechanism : {"m1", "m2", "m3", "m4"}) {
-    one.sets.push_back({std::string("mechanism.") + mechanism + ".towing_length_m", "0.1"});
-    one.sets.push_back({std::string("mechanism.") + mechanism + ".towing_elements", "1"});
+    sets.push_back({std::string("mechanism.") + mechanism + ".towing_length_m", "0.1"});
+    sets.push_back({std::string("mechanism.") + mechanism + ".towing_elements", "1"});
   }
+  return sets;
+}
+
+inline Case small_large_capture() {
+  Case one{"large_capture", large_capture_with(5), 800};
+  one.sets.insert(one.sets.end(), {{"closing.time_s", "0.0002"},
+                                   {"rings.r.diameter_m", "0.0142"},
+                                   {"target.ball.radius_m", "0.2"},
+                                   {"target.ball.center_m", "[0.05, 0.05, 0.2008]"}});
+  for (const char* thread : {"c_top", "c_right", "c_bottom", "c_left"})
+    one.sets.push_back({std::string("thread.") + thread + ".elements", "70"});
   return one;
 }
 
