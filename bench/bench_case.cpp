@@ -22,6 +22,7 @@ struct Stretch {
 };
 
 void measure(benchmark::State& state, Simulation& simulation, std::int64_t batch) {
+  simulation.advance_to(simulation.step() + batch);  // threads make their pieces and lists
   count_handover(state);
   const StageSeconds before = simulation.stepper().seconds();
   const double begin = clock_seconds();

@@ -39,11 +39,14 @@ void hand_out(const Model& model, const ContactList& list, State& state, const s
   const auto own = [&](Index node) { return owner[at(node)] == number; };
   LocalContacts out;
   out.shared = true;
-  std::vector<Index> needed;
+  std::vector<Index> needed;  // beside those that elements need
+  const auto need = [&](Index node) {
+    if (piece.numbering().local(node) < 0) needed.push_back(node);
+  };
   const auto take_pair = [&](const kernel::Pair& pair, Index with) {
     out.pairs.push_back(pair);
     out.pairs.back().with = with;
-    needed.insert(needed.end(), {pair.a, pair.b});
+    need(pair.a), need(pair.b);
   };
   for (std::size_t r = 0; r < model.rings.size(); ++r) {
     const kernel::RingGeometry& ring = model.rings[r];
@@ -54,7 +57,7 @@ void hand_out(const Model& model, const ContactList& list, State& state, const s
       if (host || own(pair.a) || own(pair.b)) take_pair(pair, static_cast<Index>(out.rings.size()));
     }
     if (out.pairs.size() == before) continue;
-    needed.insert(needed.end(), {ring.a, ring.b});
+    need(ring.a), need(ring.b);
     out.rings.push_back(ring);
     out.ring_tallies.push_back(own(ring.a) ? &state.rings[r] : nullptr);
   }
@@ -70,11 +73,9 @@ void hand_out(const Model& model, const ContactList& list, State& state, const s
   }
   SlidingJoints joints;
   joints.take_share(model, own);
-  const std::vector<Index> for_joints = joints.nodes_needed();
-  needed.insert(needed.end(), for_joints.begin(), for_joints.end());
+  for (const Index node : joints.nodes_needed()) need(node);
   std::sort(needed.begin(), needed.end());
   needed.erase(std::unique(needed.begin(), needed.end()), needed.end());
-  std::erase_if(needed, [&](Index node) { return piece.numbering().local(node) >= 0; });
   piece.set_contact_ghosts(std::move(needed), node_share);
   for (kernel::Pair& pair : out.pairs) pair.a = piece.local(pair.a), pair.b = piece.local(pair.b);
   for (kernel::RingGeometry& ring : out.rings) ring.a = piece.local(ring.a), ring.b = piece.local(ring.b);
