@@ -177,7 +177,8 @@ struct Bench {  // a thread with rings, in arrays of its own
     kernels().sliding_joints(all, on_threads.data(), on_hosts.data());
     on_threads.resize(at(counts.threads));
     on_hosts.resize(at(counts.hosts) + 2 * joints.size());
-    on_hosts.resize(at(counts.hosts + kernels().push_hosts(all, on_hosts.data() + counts.hosts)));
+    double spare = 0;
+    on_hosts.resize(at(counts.hosts + kernels().push_hosts(all, on_hosts.data() + counts.hosts, spare)));
   }
   Vec3 place(Index i) const { return {x[0][at(i)], x[1][at(i)], x[2][at(i)]}; }
   Vec3 velocity(Index i) const { return {v[0][at(i)], v[1][at(i)], v[2][at(i)]}; }

@@ -53,7 +53,8 @@ struct KernelTable {
   /// contact.dt = 0 no node passes.
   void (*sliding_joints)(const kernel::SlidingArguments&, kernel::Load* on_threads, kernel::Load* on_hosts);
   /// What the rings' bodies push the ends of their hosts apart with (room for two a joint); returns how many.
-  Index (*push_hosts)(const kernel::SlidingArguments&, kernel::Load* loads);
+  /// `spare`: by how much each host is longer than it must be, at least, m.
+  Index (*push_hosts)(const kernel::SlidingArguments&, kernel::Load* loads, double& spare);
 };
 
 /// The best table for this machine, or the one named by the environment variable CINCH_ISA ("base", "v3",

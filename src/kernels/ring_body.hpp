@@ -6,19 +6,17 @@
 
 namespace cinch::CINCH_ISA {
 
-/// A host whose ends are too near, as they stand.
+/// A host whose ends may be too near, as they stand.
 struct ShortHost {
-  V3 along;          ///< from one end to the other, m
-  double length;     ///< m
-  double shortness;  ///< by how much they are too near, m; 0: they are not
+  V3 along;       ///< from one end to the other, m
+  double length;  ///< m
+  double spare;   ///< by how much it is longer than it must be, m; negative: its ends are too near
 };
 
 inline ShortHost short_host(const kernel::ContactArguments& c, const kernel::Joint& joint) {
   const V3 along = at(c.x, c.y, c.z, joint.host_b) - at(c.x, c.y, c.z, joint.host_a);
-  const double square = dot(along, along);
-  if (!(square < joint.host_least * joint.host_least)) return {along, 0, 0};
-  const double length = std::sqrt(square);
-  return {along, length, joint.host_least - length};
+  const double length = norm(along);
+  return {along, length, length - joint.host_least};
 }
 
 }  // namespace cinch::CINCH_ISA

@@ -265,8 +265,8 @@ void note_group(const Slide& s, const RingGroup& group, const Pulls& pulls) {
     s.state(j).along = s.thread.rest_length * (group.element + (way < 1 ? way : 1.0));
     s.state(j).length = length;
     s.state(j).tension = pulls.with.tension;
-    const double shortness = short_host(s.g.contact, s.g.joints[j]).shortness;
-    s.state(j).energy = 0.5 * s.g.joints[j].host_stiffness * shortness * shortness;
+    const double spare = short_host(s.g.contact, s.g.joints[j]).spare, pressed = spare < 0 ? spare : 0.0;
+    s.state(j).energy = 0.5 * s.g.joints[j].host_stiffness * pressed * pressed;
     if (j == group.first) s.state(j).energy += pulls.with.energy - pulls.without.energy;
   }
 }

@@ -366,7 +366,7 @@ double Piece::step(std::int64_t number, double motion, StageClock& clock) {
   if (plan_.touches()) contacts_.evaluate(view(), plan_, time, plan_.dt, motion);
   if (plan_.joints) {
     if (plan_.joints_hold(number) == 0) joints_.evaluate(view(), plan_, number);
-    joints_.push(view(), plan_);
+    joints_.push(view(), plan_, motion);
   }
   clock.tick(StageId::contacts);
   hold_before(0, constraints);
@@ -436,7 +436,7 @@ void Piece::glance(State& state, double motion, Glance& out) {
   if (plan_.touches()) contacts_.evaluate(view(), plan_, time, 0, motion);
   if (plan_.joints) {
     joints_.glance(view(), plan_, state.step);
-    joints_.push(view(), plan_);
+    joints_.push(view(), plan_, motion);
     joints_.tell(state);
   }
   lend(out);

@@ -36,8 +36,9 @@ class SlidingJoints {
   void evaluate(const NodeView& nodes, const StepPlan& plan, std::int64_t step);
   /// Evaluates those of the nodes as they stand; books nothing, and no node passes a ring.
   void glance(const NodeView& nodes, const StepPlan& plan, std::int64_t step);
-  /// What rings push their hosts' ends apart with, at each step.
-  void push(const NodeView& nodes, const StepPlan& plan);
+  /// What rings push their hosts' ends apart with, at each step. `motion` (m) as of NearContacts: by which two
+  /// nodes can have come closer; it grows from take() on.
+  void push(const NodeView& nodes, const StepPlan& plan, double motion);
   /// What nodes of threads take beside the force of straight elements; forces of the rings on their hosts.
   std::span<const kernel::Load> on_threads() const { return {on_threads_.data(), count(total().threads)}; }
   std::span<const kernel::Load> on_hosts() const { return {on_hosts_.data(), count(total().hosts)}; }
@@ -77,6 +78,7 @@ class SlidingJoints {
   std::vector<kernel::Load> on_threads_, on_hosts_, pushing_;  ///< room for all
   AlignedVector<double> standing_[3];                          ///< node
   Index pushes_ = 0;
+  double long_until_ = 0;  ///< motion up to which no host is short
   std::vector<kernel::SlidingLoads> ends_;  ///< thread: behind its loads
 };
 
