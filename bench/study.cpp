@@ -144,12 +144,12 @@ RunResult run(const Problem& problem, const Setting& setting, const Track& refer
     result.errors = errors_of(problem, found.tracks, reference);
     result.residual = found.residual;
     result.seconds = problem.runs > 1 ? found.seconds : least_seconds(problem, setting, found.seconds);
-    std::printf("  %-48s %4d elements  error %8.4f %%  %9.3g s/s  residual %.1e%s\n",
+    std::printf("  %-58s %4d elements  error %8.4f %%  %9.3g s/s  residual %.1e%s\n",
                 setting.series().c_str(), setting.elements, 100 * result.error(), result.seconds,
                 result.residual, setting.papers ? "  the paper's choice" : "");
   } catch (const Error& error) {
     result.failure = error.what();
-    std::printf("  %-48s %4d elements  stopped: %.60s...\n", setting.series().c_str(), setting.elements,
+    std::printf("  %-58s %4d elements  stopped: %.60s...\n", setting.series().c_str(), setting.elements,
                 error.what());
   }
   std::fflush(stdout);

@@ -61,6 +61,7 @@ Problem capture(Extent extent) {
   for (const double fraction : {0.8, 0.4}) add_series(p.settings, "sliding", few, fraction, 0);
   // steps beyond 0.9 are too long for contacts with the ball
   add_series(p.settings, "sliding", {10, 12}, 0.9, 0);
+  add_series(p.settings, "sliding", {10}, 0.9, 6);  // as long as they may be
   add_papers_step(p.settings, papers_rules, {240}, {240});
   if (extent == Extent::full) {
     add_papers_step(p.settings, "contact", {240}, {});

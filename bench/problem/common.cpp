@@ -60,7 +60,8 @@ std::string Setting::series() const {
   char words[40];
   if (step > 0) std::snprintf(words, sizeof words, ", step %g s", step);
   else std::snprintf(words, sizeof words, ", %g of the stable step", fraction);
-  return method + words + (joint_steps == 0 ? ", forces held" : "");
+  const std::string held = joint_steps > 1 ? " for " + std::to_string(joint_steps) + " steps" : "";
+  return method + words + (joint_steps != 1 ? ", forces held" + held : "");
 }
 
 std::vector<Problem> problems(Extent extent) {
