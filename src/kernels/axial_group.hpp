@@ -139,6 +139,14 @@ inline bool idle(const SpanView& s, std::ptrdiff_t number, const double* damper)
   return true;
 }
 
+// Rarely needed: kept out of the way.
+template <bool damped, bool chain>
+[[gnu::noinline, gnu::cold]] GroupItems forces_anew(const SpanView& s, std::ptrdiff_t number) {
+  GroupItems items;
+  forces_of_group<damped, chain, true>(s, number, items);
+  return items;
+}
+
 /// Elements that turn taut or slack are few and cost roots and divisions: a group that may have some is
 /// computed anew.
 template <bool damped, Book::Sum book, bool chain>
@@ -146,7 +154,7 @@ inline void group(const SpanView& s, std::ptrdiff_t number, Sums& sums) {
   if (idle<chain>(s, number, with_power(book) ? s.damper + number * lanes : nullptr)) return;
   GroupItems items;
   if (forces_of_group<damped, chain, false>(s, number, items)) [[unlikely]]
-    forces_of_group<damped, chain, true>(s, number, items);
+    items = forces_anew<damped, chain>(s, number);
   double* __restrict const before = with_power(book) ? s.damper + number * lanes : nullptr;
   double *const energy = sums.energy, *const power = sums.power;
 #pragma omp simd
