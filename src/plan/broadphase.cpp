@@ -75,8 +75,8 @@ void BoxTree::build(const Model& model, const ContactSet& set, const State& stat
   const std::size_t count = set.elements.size();
   if (count == 0) return;
   std::vector<Box> boxes((count + leaf_size - 1) / leaf_size);
-#pragma omp parallel for num_threads(threads) \
-    schedule(static) if (threads > 1 && boxes.size() > worth_sharing)
+  const bool shared = threads > 1 && boxes.size() > worth_sharing;
+#pragma omp parallel for num_threads(threads) schedule(static) if (shared)
   for (std::size_t b = 0; b < boxes.size(); ++b)
     boxes[b] = box_around(model, set, state, b * leaf_size, std::min((b + 1) * leaf_size, count));
   levels_.push_back(std::move(boxes));

@@ -11,8 +11,9 @@ namespace {
 
 constexpr std::size_t at(Index i) { return static_cast<std::size_t>(i); }
 
-constexpr std::size_t worth_sharing =
-    64;                               ///< rings: a region of threads costs as much as the search for some
+// Rings: a region of threads costs as much as the search for some.
+constexpr std::size_t worth_sharing = 64;
+
 constexpr double margin_lengths = 4;  ///< automatic margin over the mean element length of the finest set
 
 double automatic_margin(const Model& model) {
@@ -191,8 +192,9 @@ void ContactList::find_near_ring(const Model& model, const State& state, std::si
 // Each thread takes some of the rings, one after another.
 void ContactList::find_ring_pairs(const Model& model, const State& state) {
   const std::size_t rings = model.rings.size(), shares = rings < worth_sharing ? 1 : searches_.size();
+  const int threads = static_cast<int>(shares);
   ring_begin.assign(rings + 1, 0);
-#pragma omp parallel for num_threads(static_cast <int>(shares)) schedule(static, 1) if (shares > 1)
+#pragma omp parallel for num_threads(threads) schedule(static, 1) if (threads > 1)
   for (std::size_t share = 0; share < shares; ++share) {
     Search& search = searches_[share];
     search.pairs.clear();

@@ -67,13 +67,14 @@ Exchange::Channels Exchange::channels_to(std::size_t receiver,
 void Exchange::set_up(const std::vector<std::unique_ptr<Piece>>& pieces, const std::vector<int>& owner,
                       bool everyone, double dt) {
   const auto count = pieces.size();
+  const int threads = static_cast<int>(count);
   dt_ = dt;
   while (posts_.size() < count) posts_.push_back(std::make_unique<Post>());
   sent_.assign(count, {});
   received_.resize(count);
   partners_.assign(count, {});
   std::vector<std::vector<bool>> moved(count);  // by piece and node
-#pragma omp parallel num_threads(static_cast <int>(count))
+#pragma omp parallel num_threads(threads)
   {
 #pragma omp for schedule(static, 1)
     for (std::size_t p = 0; p < count; ++p) moved[p] = pieces[p]->moved_by_speed();
@@ -99,7 +100,7 @@ void Exchange::post(int p, Piece& piece, double greatest) {
   Post& mine = *posts_[at(p)];
   const std::int64_t round = mine.round.load(std::memory_order_relaxed) + 1;
   const auto side = static_cast<std::size_t>(round & 1);
-  for (Channel* channel : sent_[at(p)]) {
+  for (Channel* const channel : sent_[at(p)]) {
     double* box = channel->box[side].data();
     const auto put = [&](const double* field, const std::vector<Passage>& nodes) {
       for (const Passage& node : nodes) *box++ = field[node.from];

@@ -47,13 +47,13 @@ class Exchange {
     AlignedVector<double> box[2];
   };
 
+  using Channels = std::vector<std::unique_ptr<Channel>>;
+
+  static Channels channels_to(std::size_t receiver, const std::vector<std::unique_ptr<Piece>>& pieces,
+                              const std::vector<int>& owner, const std::vector<std::vector<bool>>& moved);
   void open(const Channel& channel, const double* box, Piece& piece) const;
 
   double dt_ = 0;
-  using Channels = std::vector<std::unique_ptr<Channel>>;
-  static Channels channels_to(std::size_t receiver, const std::vector<std::unique_ptr<Piece>>& pieces,
-                              const std::vector<int>& owner, const std::vector<std::vector<bool>>& moved);
-
   std::vector<std::unique_ptr<Post>> posts_;
   std::vector<Channels> received_;           ///< by receiver
   std::vector<std::vector<Channel*>> sent_;  ///< by sender
