@@ -145,7 +145,7 @@ def efficiency(run: Run) -> Figure:
     return _scaling(run, "Efficiency of threads",
                     "100 % means that each thread does as much as one alone; above half is good.",
                     _thread_curves(run, lambda ratio, n: 100 * ratio / n, lambda n: 100),
-                    {"title": "speed-up divided by threads, %", "max": 105})
+                    {"title": "speed-up divided by threads, %"})
 
 
 def _step_ns(result: Result) -> float | None:
