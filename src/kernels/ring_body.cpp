@@ -12,6 +12,7 @@ Index push_hosts(const kernel::SlidingArguments& g, kernel::Load* loads, double&
   for (Index t = 0; t < g.thread_count; ++t)
     for (Index j = g.threads[t].joint_begin; j < g.threads[t].joint_end; ++j) {
       const kernel::Joint& joint = g.joints[j];
+      if (joint.host_a == joint.host_b) continue;  // no element
       const ShortHost host = short_host(g.contact, joint);
       if (host.spare < spare) spare = host.spare;
       if (!(host.spare < 0 && host.length > 0)) continue;
