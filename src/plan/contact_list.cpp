@@ -130,7 +130,6 @@ void ContactList::rebuild(const Model& model, State& state) {
   ++rebuilds_;
   for (std::size_t s = 0; s < trees_.size(); ++s)
     trees_[s].build(model, model.contact_sets[s], state, static_cast<int>(searches_.size()));
-  pairs.clear();
   find_ring_pairs(model, state);
   find_ball_pairs(model, state);
   find_longest_approach();
@@ -180,16 +179,16 @@ std::int64_t ContactList::pairs_tested() const {
   return sum;
 }
 
-void ContactList::find_near_ring(const Model& model, const State& state, std::size_t r,
-                                 Search& search) const {
+void ContactList::find_near_ring(const Model& model, const State& state, std::size_t r, Search& search,
+                                 std::vector<kernel::Pair>& found) const {
   const auto set_number = at(model.ring_set[r]);
   search.positions.clear();
   trees_[set_number].query(model, model.contact_sets[set_number], state, ring_center(state, model.rings[r]),
                            model.rings[r].reach + margin_, search.positions, search.tested);
-  for (const Index position : search.positions) search.pairs.push_back(pair_with_ring(model, position, r));
+  for (const Index position : search.positions) found.push_back(pair_with_ring(model, position, r));
 }
 
-// Each thread takes some of the rings, one after another.
+// Each thread takes some of the rings, one after another; what all but the first find is put behind.
 void ContactList::find_ring_pairs(const Model& model, const State& state) {
   const std::size_t rings = model.rings.size(), shares = rings < worth_sharing ? 1 : searches_.size();
   const int threads = static_cast<int>(shares);
@@ -197,15 +196,16 @@ void ContactList::find_ring_pairs(const Model& model, const State& state) {
 #pragma omp parallel for num_threads(threads) schedule(static, 1) if (threads > 1)
   for (std::size_t share = 0; share < shares; ++share) {
     Search& search = searches_[share];
-    search.pairs.clear();
+    std::vector<kernel::Pair>& found = share == 0 ? pairs : search.pairs;
+    found.clear();
     for (std::size_t r = rings * share / shares; r < rings * (share + 1) / shares; ++r) {
-      const std::size_t before = search.pairs.size();
-      find_near_ring(model, state, r, search);
-      ring_begin[r + 1] = static_cast<Index>(search.pairs.size() - before);
+      const std::size_t before = found.size();
+      find_near_ring(model, state, r, search, found);
+      ring_begin[r + 1] = static_cast<Index>(found.size() - before);
     }
   }
   std::partial_sum(ring_begin.begin(), ring_begin.end(), ring_begin.begin());
-  for (std::size_t share = 0; share < shares; ++share)
+  for (std::size_t share = 1; share < shares; ++share)
     pairs.insert(pairs.end(), searches_[share].pairs.begin(), searches_[share].pairs.end());
 }
 

@@ -47,11 +47,12 @@ class ContactList {
   void require_ranges(const Archive& archive, const Model& model, std::int64_t pair_count) const;
   /// What one thread finds.
   struct Search {
-    std::vector<Index> positions;  ///< in a set
-    std::vector<kernel::Pair> pairs;
+    std::vector<Index> positions;     ///< in a set
+    std::vector<kernel::Pair> pairs;  ///< with rings; the first thread puts its own where all belong
     std::int64_t tested = 0;
   };
-  void find_near_ring(const Model& model, const State& state, std::size_t ring, Search& search) const;
+  void find_near_ring(const Model& model, const State& state, std::size_t ring, Search& search,
+                      std::vector<kernel::Pair>& found) const;
   void find_ring_pairs(const Model& model, const State& state);
   void find_ball_pairs(const Model& model, const State& state);
 
