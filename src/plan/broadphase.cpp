@@ -8,6 +8,9 @@
 namespace cinch {
 namespace {
 
+// A region of threads costs as much as some thousand elements.
+constexpr std::size_t worth_sharing = 500;  ///< boxes
+
 constexpr Box empty_box() {
   constexpr double far = std::numeric_limits<double>::infinity();
   return {{far, far, far}, {-far, -far, -far}};
@@ -19,9 +22,6 @@ void grow(Box& box, const Box& other) {
     box.high[d] = std::max(box.high[d], other.high[d]);
   }
 }
-
-// A region of threads costs as much as some thousand elements.
-constexpr std::size_t worth_sharing = 500;  ///< boxes
 
 void grow(double place, double& low, double& high) {
   low = place < low ? place : low;

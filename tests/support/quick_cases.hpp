@@ -52,8 +52,7 @@ inline Case capture() {
   return one;
 }
 
-// The large capture at 0.5 m instead of 20 m, with narrow rings.
-/// What makes the large capture one with a net of `columns` meshes a side, a ring in each mesh of each edge.
+// What makes the large capture one with a net of `columns` meshes a side, a ring in each mesh of each edge.
 inline std::vector<Override> large_capture_with(int columns) {
   const std::string size = std::to_string(0.1 * columns), length = std::to_string(0.1 * columns + 0.2);
   std::vector<Override> sets{{"net.main.size_m", "[" + size + ", " + size + "]"}};
@@ -68,6 +67,7 @@ inline std::vector<Override> large_capture_with(int columns) {
   return sets;
 }
 
+// The large capture at 0.5 m instead of 20 m, with narrow rings.
 inline Case small_large_capture() {
   Case one{"large_capture", large_capture_with(5), 800};
   one.sets.insert(one.sets.end(), {{"closing.time_s", "0.0002"},
