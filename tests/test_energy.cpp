@@ -57,6 +57,37 @@ std::vector<double> orders(const Scene& scene, double step, double end, int halv
 }
 
 // ----------------------------------------------------------------------------------------------------
+// The first look
+
+// The kinetic energy of central differences, v(-1/2).v(1/2), is negative in a scene that is let go from rest:
+// the books must open with the same.
+TEST(Ledger, OpensBalancedInASceneAtRest) {
+  const Scene scene = parse_case(R"(
+schema = 1
+[time]
+end_s = 0.1
+[gravity]
+acceleration_m_s2 = [0, 0, -9.81]
+[material.cord]
+youngs_modulus_Pa = 1e9
+density_kg_m3 = 970
+[thread.rope]
+material = "cord"
+diameter_m = 0.002
+points_m = [[0, 0, 0], [1, 0, 0]]
+start = { support = "fixed" }
+end = { mass_kg = 0.2 }
+)",
+                                 "pendulum.toml");
+  Simulation simulation(scene, 1);
+  for (int step = 0; step < 20; ++step) {
+    simulation.advance_to(step);
+    EXPECT_NO_THROW(simulation.check_energy(simulation.look()));
+    EXPECT_LT(std::abs(simulation.summary().energy.residual), 1e-18) << step;
+  }
+}
+
+// ----------------------------------------------------------------------------------------------------
 // Order of the residual
 
 // A net stretched by 2 % and held along its edges, its middle struck: no element ever goes slack.

@@ -129,7 +129,6 @@ void Simulation::start() {
     for (const Mechanism& mechanism : scene_.mechanisms) events_.push_back({0, "separation", mechanism.name});
   }
   look_.take(*stepper_, state_, preparation_.assembly, false);
-  const Energies begin = look_.energy();
   for (Index i = 0; i < m.nodes; ++i) {
     const Vec3 half = 0.5 * look_.gain(i);
     state_.vx[at(i)] -= half.x();
@@ -138,8 +137,9 @@ void Simulation::start() {
   }
   drop_negative_zeros(state_);
   remember();
-  ledger_.open(begin, m, state_, work);
-  ring_start_ = look().ring_centers();
+  look();
+  ledger_.open(look_.energy(), m, state_, work);
+  ring_start_ = look_.ring_centers();
   threadings_.begin(look_, stepper_->contacts());
   if (needs_node_start(scene_)) node_start_ = look_.positions();
   // rings along one straight edge are no mouth: their hull has next to no area

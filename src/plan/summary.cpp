@@ -81,8 +81,9 @@ Summary Simulation::summary() {
   s.energy = ledger_.energies(look().energy());
   s.energy_initial = ledger_.initial();
   if (!scene_.output.ledger) s.energy.residual = std::numeric_limits<double>::quiet_NaN();  // books not kept
-  s.relative_residual = ledger_.scale() > 0 ? std::abs(s.energy.residual) / ledger_.scale() : 0;
-  if (s.relative_residual > residual_limit && std::abs(s.energy.residual) > least_energy)
+  s.relative_residual =
+      std::abs(s.energy.residual) / std::max(ledger_.scale(), least_energy / residual_limit);
+  if (s.relative_residual > residual_limit)
     s.warnings.push_back(
         "energy is not conserved (residual above 1 %); a smaller time.step_s or more damping may help");
   const Momentum drift = ledger_.drift(model(), state_, time());
