@@ -104,6 +104,8 @@ struct Reference {
   double error = 0;  // its own
 };
 
+// Settings of a reference scatter about what they all come to: the error of their mean is that of a mean of
+// as many runs, see errors_of, by the one that is furthest off.
 Reference reference_of(const Problem& problem) {
   if (problem.exact) return {};
   std::vector<Track> finest;
@@ -112,6 +114,8 @@ Reference reference_of(const Problem& problem) {
   Reference reference{mean(finest)};
   for (const Track& track : finest)
     reference.error = std::max(reference.error, problem.errors(track, reference.track).front().second);
+  const std::size_t others = std::max<std::size_t>(finest.size() - 1, 1);  // a trial may have one setting
+  reference.error /= std::sqrt(static_cast<double>(others));
   return reference;
 }
 

@@ -66,7 +66,7 @@ double RunResult::uncertainty() const {
 const RunResult* best_within(const ProblemResult& result, double error) {
   const RunResult* best = nullptr;
   for (const RunResult& run : result.runs)
-    if (run.good() && run.error() + run.uncertainty() <= error &&
+    if (run.good() && run.error() + run.uncertainty() + result.reference_error <= error &&
         (best == nullptr || run.seconds < best->seconds))
       best = &run;
   return best;
@@ -80,12 +80,29 @@ std::vector<std::string> series_of(const ProblemResult& result) {
   return all;
 }
 
+namespace {
+
+// The good runs of a series from the coarsest on, as long as each is better than the one before.
+std::vector<const RunResult*> falling(const ProblemResult& result, const std::string& series) {
+  std::vector<const RunResult*> runs;
+  for (const RunResult& run : result.runs)
+    if (run.good() && run.setting.series() == series && run.error() > 0) runs.push_back(&run);
+  std::stable_sort(runs.begin(), runs.end(), [](const RunResult* a, const RunResult* b) {
+    return a->setting.elements < b->setting.elements;
+  });
+  const auto rises = [](const RunResult* a, const RunResult* b) { return b->error() >= a->error(); };
+  const auto end = std::adjacent_find(runs.begin(), runs.end(), rises);
+  if (end != runs.end()) runs.erase(end + 1, runs.end());
+  return runs;
+}
+
+}  // namespace
+
 double observed_order(const ProblemResult& result, const std::string& series) {
   double n = 0, x = 0, y = 0, xx = 0, xy = 0;
   if (result.problem->runs > 1) return std::numeric_limits<double>::quiet_NaN();
-  for (const RunResult& run : result.runs) {
-    if (!run.good() || run.setting.series() != series || !(run.error() > 0)) continue;
-    const double length = -std::log(run.setting.elements), error = std::log(run.error());
+  for (const RunResult* run : falling(result, series)) {
+    const double length = -std::log(run->setting.elements), error = std::log(run->error());
     n += 1, x += length, y += error, xx += length * length, xy += length * error;
   }
   if (n < 3) return std::numeric_limits<double>::quiet_NaN();

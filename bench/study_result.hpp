@@ -20,16 +20,17 @@ struct RunResult {
 
 struct ProblemResult {
   const Problem* problem = nullptr;
-  double reference_error = 0;  ///< greatest error of a setting of the reference against their mean
+  double reference_error = 0;  ///< of the reference itself; 0 for an exact one
   std::vector<RunResult> runs;
 };
 
-/// The run that takes least time among those within `error` for certain, null where there is none. An error
-/// below that of the reference is not told from zero.
+/// The run that takes least time among those within `error` for certain, null where there is none: its error,
+/// what chance may add and what the reference may be off by come to no more.
 const RunResult* best_within(const ProblemResult& result, double error);
 
-/// Order of a series: slope of log error over log element length, by least squares; not a number for fewer
-/// than three runs, or where means of chaotic runs are compared.
+/// Order of a series: slope of log error over log element length, by least squares, from the coarsest run on
+/// as far as errors fall; not a number for fewer than three such runs, or where means of chaotic runs are
+/// compared.
 double observed_order(const ProblemResult& result, const std::string& series);
 
 /// All different series, in their order.

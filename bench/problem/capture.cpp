@@ -56,7 +56,7 @@ Problem capture(Extent extent) {
     add_series(p.settings, "sliding", {6}, 0.8, 0);
     return p;
   }
-  for (const int n : {36, 52}) p.reference.push_back({"sliding", n, 0, 0.4, false, 0});
+  for (const int n : {36, 44, 52}) p.reference.push_back({"sliding", n, 0, 0.4, false, 0});
   const std::vector<int> few = {6, 8, 12, 18, 26};
   for (const double fraction : {0.8, 0.4}) add_series(p.settings, "sliding", few, fraction, 0);
   // steps beyond 0.9 are too long for contacts with the ball

@@ -45,7 +45,7 @@ Problem edge_closure(Extent extent) {
     add_series(p.settings, "sliding", {6}, 0.8, 0);
     return p;
   }
-  for (const int n : {72, 100, 144}) p.reference.push_back({"sliding", n, 0, 0.25, false});
+  for (const int n : {72, 86, 100, 120, 144}) p.reference.push_back({"sliding", n, 0, 0.25, false});
   const std::vector<int> few = {6, 8, 12, 18, 26, 36};
   for (const double fraction : {0.8, 0.4}) add_series(p.settings, "sliding", few, fraction, 0);
   add_papers_step(p.settings, papers_rules, {240}, {240});

@@ -37,7 +37,7 @@ Problem net_closing(Extent extent) {
     add_series(p.settings, "sliding", {6}, 0.8, 0);
     return p;
   }
-  for (const int n : {52, 72, 104}) p.reference.push_back({"sliding", n, 0, 0.25, false});
+  for (const int n : {52, 62, 72, 86, 104}) p.reference.push_back({"sliding", n, 0, 0.25, false});
   const std::vector<int> few = {6, 8, 12, 18, 26, 36};
   for (const double fraction : {0.8, 0.4}) add_series(p.settings, "sliding", few, fraction);
   for (const double fraction : {0.95, 0.8, 0.4}) add_series(p.settings, "sliding", few, fraction, 0);

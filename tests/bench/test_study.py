@@ -58,6 +58,12 @@ class Study(unittest.TestCase):
             if run["elements"] == 16:
                 self.assertLess(run["errors"]["error"], 0.005)
 
+    def test_orders_are_those_of_errors_that_fall(self) -> None:
+        for problem in self.problems.values():
+            for series in problem["orders"]:
+                errors = [run["errors"]["error"] for run in self.runs(problem["name"]) if run["series"] == series]
+                self.assertTrue(len(errors) >= 3 and errors[0] > errors[1] > errors[2], (problem["name"], series))
+
     def test_the_paper_s_cases_run_and_are_near_their_references(self) -> None:
         for name in ("edge_closure", "net_closing", "capture"):
             (run,) = self.runs(name)
@@ -73,11 +79,12 @@ class Study(unittest.TestCase):
         self.assertTrue(0 < run["errors"]["one_run_from_the_mean"] < 1e-3)
         self.assertLess(run["errors"]["one_run_from_the_mean"], run["errors"]["error"])
 
-    def test_the_best_is_the_fastest_within_the_error(self) -> None:
+    def test_the_best_is_the_fastest_within_the_error_for_certain(self) -> None:
         for problem in self.problems.values():
             for best in problem["best"]:
                 within = [run for run in self.runs(problem["name"])
-                          if run["errors"]["error"] + run["errors"].get("uncertainty", 0) <= best["error"]]
+                          if run["errors"]["error"] + run["errors"].get("uncertainty", 0)
+                          + problem["reference_error"] <= best["error"]]
                 runs = problem["runs"]
                 found = runs[best["run"]]["seconds_per_simulated_second"] if best["run"] is not None else None
                 self.assertEqual(found, min((run["seconds_per_simulated_second"] for run in within), default=None))
