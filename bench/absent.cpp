@@ -64,7 +64,8 @@ StrippedNet::StrippedNet(const Features& has)
   for (auto& f : force_) f.assign(at(work_.force_count), 0.0);
   damper_.assign(palette_.of_group.size() * kernel::lanes, 0.0);
   for (const Block& b : work_.blocks)
-    blocks_.push_back({b.patch_begin, b.patch_end, b.span_begin, b.span_end, b.stretch_begin, b.stretch_end});
+    blocks_.push_back({b.patch_begin, b.patch_end, b.span_begin, b.neighbour_begin, b.span_end,
+                       b.stretch_begin, b.chain_stretch_end, b.stretch_end});
   State& s = state_;
   scene_.axial = {s.x.data(),
                   s.y.data(),

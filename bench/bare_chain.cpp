@@ -3,19 +3,19 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <string>
 
+#include "kernels/kernel_table.hpp"
 #include "processor_time.hpp"
 
 namespace cinch::bench {
 namespace {
 
 // The same arithmetic as the solver's, with constants in place of arrays.
-#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__)
-__attribute__((target_clones("avx512f", "avx2", "default")))
-#endif
-void bare_step(Index n, double* __restrict x, double* __restrict y, double* __restrict z, double* __restrict u,
-               double* __restrict v, double* __restrict w, double* __restrict fx, double* __restrict fy,
-               double* __restrict fz) {
+[[gnu::always_inline]] inline void any_step(Index n, double* __restrict x, double* __restrict y,
+                                            double* __restrict z, double* __restrict u, double* __restrict v,
+                                            double* __restrict w, double* __restrict fx,
+                                            double* __restrict fy, double* __restrict fz) {
   constexpr double k = 6.28e5, c = 0.655, l0 = 0.005, dt = 1e-6, scale = dt / 1.5e-5;
 #pragma omp simd
   for (Index i = 0; i < n; ++i) {
@@ -39,6 +39,33 @@ void bare_step(Index n, double* __restrict x, double* __restrict y, double* __re
   }
 }
 
+using Step = void(Index, double*, double*, double*, double*, double*, double*, double*, double*, double*);
+
+void base_step(Index n, double* x, double* y, double* z, double* u, double* v, double* w, double* fx,
+               double* fy, double* fz) {
+  any_step(n, x, y, z, u, v, w, fx, fy, fz);
+}
+#ifdef CINCH_X86_ISAS
+[[gnu::target("arch=x86-64-v3")]] void v3_step(Index n, double* x, double* y, double* z, double* u, double* v,
+                                               double* w, double* fx, double* fy, double* fz) {
+  any_step(n, x, y, z, u, v, w, fx, fy, fz);
+}
+[[gnu::target("arch=x86-64-v4")]] void v4_step(Index n, double* x, double* y, double* z, double* u, double* v,
+                                               double* w, double* fx, double* fy, double* fz) {
+  any_step(n, x, y, z, u, v, w, fx, fy, fz);
+}
+#endif
+
+// That of the solver's instruction set.
+Step* choose_step() {
+#ifdef CINCH_X86_ISAS
+  const std::string isa = kernels().isa;
+  if (isa == "v4") return v4_step;
+  if (isa == "v3") return v3_step;
+#endif
+  return base_step;
+}
+
 }  // namespace
 
 BareChain::BareChain(std::int64_t elements) : count_(static_cast<Index>(elements)) {
@@ -49,6 +76,7 @@ BareChain::BareChain(std::int64_t elements) : count_(static_cast<Index>(elements
 }
 
 void BareChain::advance(std::int64_t steps) {
+  Step* const bare_step = choose_step();
   for (std::int64_t s = 0; s < steps; ++s)
     bare_step(count_, x_.data(), y_.data(), z_.data(), vx_.data(), vy_.data(), vz_.data(), fx_.data(),
               fy_.data(), fz_.data());

@@ -32,6 +32,14 @@ inline void count_simulated(benchmark::State& state, double seconds) {
       benchmark::Counter(60 * seconds, benchmark::Counter::kIsRate | benchmark::Counter::kInvert);
 }
 
+/// `steps` of the whole measurement, of which `flown` many at once (plan/free_flight.hpp): only where next to
+/// none are does a step's length say what elements and threads cost.
+inline void count_steps(benchmark::State& state, const Model& model, double steps, double flown) {
+  state.counters["steps_per_second"] = benchmark::Counter(steps, benchmark::Counter::kIsRate);
+  state.counters["flown_share"] = flown / steps;
+  if (flown < 0.01 * steps) count_updates(state, steps * model.elements);
+}
+
 /// Stages of the step's own clock as shares of the `wall` seconds they were measured in. That clock samples,
 /// so a short measurement may add up to more than there was.
 inline void count_shares(benchmark::State& state, const StageSeconds& seconds, double wall) {

@@ -13,7 +13,8 @@ namespace cinch::bench {
 
 /// What one block of nodes computes and moves, as stretches of the lists below.
 struct StrippedBlock {
-  Index patch_begin, patch_end, span_begin, span_end, stretch_begin, stretch_end;
+  Index patch_begin, patch_end, span_begin, neighbour_begin, span_end, stretch_begin, chain_stretch_end,
+      stretch_end;
 };
 
 struct StrippedScene {
