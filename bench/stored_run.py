@@ -16,6 +16,8 @@ from typing import Any, Iterable
 import names
 from command_line import BadInput
 
+WALL, PROCESSOR = "wall", "processor"  # clocks
+
 _SECONDS = {"ns": 1e-9, "us": 1e-6, "ms": 1e-3, "s": 1.0}
 
 # Google Benchmark's own keys of an entry; every other number is a counter.
@@ -31,6 +33,7 @@ class Result:
 
     name: str
     seconds: tuple[float, ...]  # per iteration; empty when the benchmark gave up
+    clock: str = WALL  # of these seconds
     counters: dict[str, float] = field(default_factory=dict)
     error: str = ""
 
@@ -126,9 +129,10 @@ def _check(entry: Any, where: str) -> None:
         raise BadInput(f"{where} has no text \"name\"")
     if entry.get("error_occurred") or "big_o" in entry or "rms" in entry:
         return
-    time = entry.get("real_time")
-    if not isinstance(time, (int, float)) or isinstance(time, bool) or not math.isfinite(time):
-        raise BadInput(f"{where} has no number \"real_time\"")
+    for key in ["real_time", *(["cpu_time"] if "cpu_time" in entry else [])]:
+        time = entry.get(key)
+        if not isinstance(time, (int, float)) or isinstance(time, bool) or not math.isfinite(time):
+            raise BadInput(f"{where} has no number \"{key}\"")
     if entry.get("aggregate_unit") != "percentage" and entry.get("time_unit") not in _SECONDS:
         raise BadInput(f"{where} has no \"time_unit\" of {', '.join(_SECONDS)}")
 
@@ -151,8 +155,17 @@ def _result(name: str, entries: list[dict[str, Any]]) -> Result:
     done = [entry for entry in entries if not entry.get("error_occurred")]
     if not done:
         return Result(name, (), error=str(entries[0].get("error_message") or "gave up"))
-    seconds = tuple(entry["real_time"] * _SECONDS[entry["time_unit"]] for entry in done)
-    return Result(name, seconds, _median_counters(done))
+    clock = PROCESSOR if all(_by_processor(entry) for entry in done) else WALL
+    key = "cpu_time" if clock == PROCESSOR else "real_time"
+    seconds = tuple(entry[key] * _SECONDS[entry["time_unit"]] for entry in done)
+    return Result(name, seconds, clock, _median_counters(done))
+
+
+def _by_processor(entry: dict[str, Any]) -> bool:
+    """Google Benchmark goes by the processor's time, in counters too, unless the name tells of another clock: a busy
+    machine then does not slow a benchmark down."""
+    parts = (entry.get("run_name") or entry["name"]).split("/")
+    return "cpu_time" in entry and not {"real_time", "manual_time"} & set(parts)
 
 
 def _median_counters(entries: Iterable[dict[str, Any]]) -> dict[str, float]:

@@ -9,6 +9,7 @@ from typing import Any
 from comparison import TOLERANCE, Spread, judge
 from history import Record
 from page.figure import Row
+from stored_run import PROCESSOR
 from text import duration
 
 
@@ -26,8 +27,9 @@ class Point:
 def points(records: list[Record]) -> dict[str, dict[str, list[Point]]]:
     """Points by machine, then by benchmark, in the order of time."""
     groups: dict[tuple[str, str], dict[tuple[str, str], list[Record]]] = {}
+    by_processor = {record["benchmark"] for record in records if record.get("clock") == PROCESSOR}
     for record in records:
-        commits = groups.setdefault((record["machine_id"], record["benchmark"]), {})
+        commits = groups.setdefault((record["machine_id"], _benchmark(record, by_processor)), {})
         # changes that are no commit yet are a point of their own for each run, at the time of the run
         own = record["run"] if record.get("dirty") else ""
         commits.setdefault((record["commit"], own), []).append(record)
@@ -36,6 +38,12 @@ def points(records: list[Record]) -> dict[str, dict[str, list[Point]]]:
         row = sorted((_point(same) for same in commits.values()), key=lambda point: point.when)
         found.setdefault(machine, {})[benchmark] = row
     return found
+
+
+def _benchmark(record: Record, by_processor: set[str]) -> str:
+    """Times on the wall, as lines without a clock hold, are a curve of their own beside those of the processor."""
+    name = str(record["benchmark"])
+    return f"{name} (on the wall)" if name in by_processor and record.get("clock") != PROCESSOR else name
 
 
 def _point(records: list[Record]) -> Point:

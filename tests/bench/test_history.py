@@ -30,7 +30,8 @@ class History(unittest.TestCase):
         self.assertEqual(line["counters"], result.counters)
         about = {"schema": 1, "run": run.id, "date": "2026-01-10T11:00:00Z", "commit": "aaaaaaaaaaaa", "cores": 16,
                  "commit_date": "2026-01-10T11:00:00Z", "dirty": False, "machine_id": "lab, Example CPU 8-Core",
-                 "isa": "v3", "compiler": "GNU 12.2.0", "build_type": "Release", "mode": "full", "omp_threads": 8}
+                 "isa": "v3", "compiler": "GNU 12.2.0", "build_type": "Release", "mode": "full", "omp_threads": 8,
+                 "clock": "wall"}
         self.assertEqual({key: line[key] for key in about}, about)
 
     def test_a_run_is_added_once(self) -> None:
@@ -93,6 +94,14 @@ class OverTime(unittest.TestCase):
         row = points[again["machine_id"]][again["benchmark"]]
         self.assertEqual([(point.commit, point.repetitions) for point in row],
                          [(again["commit"], 10), (again["commit"] + " with changes", 5)])
+
+    def test_older_times_on_the_wall_are_not_joined_with_those_of_the_processor(self) -> None:
+        record = next(record for record in self.records if record["benchmark"] == "element/bare/200")
+        old = dict(record, run="old")
+        del old["clock"]
+        (machine,) = over_time.points([old, record]).values()
+        self.assertEqual({name: [point.repetitions for point in row] for name, row in machine.items()},
+                         {"element/bare/200 (on the wall)": [5], "element/bare/200": [5]})
 
     def test_latest_changes(self) -> None:
         machine = over_time.points(self.records)["lab, Example CPU 8-Core"]

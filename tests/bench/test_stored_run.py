@@ -65,6 +65,14 @@ class Reading(unittest.TestCase):
                  "real_time": time, "time_unit": "s"} for kind, time in (("mean", 3), ("median", 2), ("stddev", 1))]
         self.assertEqual(self.read(rows)["a"].seconds, (2.0,))
 
+    def test_the_clock_is_the_one_that_the_benchmark_goes_by(self) -> None:
+        both = {"real_time": 3, "cpu_time": 2, "time_unit": "s"}
+        results = self.read([{"name": "one_thread", **both}, {"name": "threads/real_time", **both},
+                             {"name": "set/manual_time", **both}, {"name": "old", "real_time": 3, "time_unit": "s"}])
+        self.assertEqual({name: (result.clock, *result.seconds) for name, result in results.items()},
+                         {"one_thread": ("processor", 2), "threads": ("wall", 3), "set": ("wall", 3),
+                          "old": ("wall", 3)})
+
     def test_a_benchmark_that_gave_up_is_told_as_such(self) -> None:
         result = self.read([sample.gave_up("a", "no such case")])["a"]
         self.assertEqual((result.seconds, result.error), ((), "no such case"))
@@ -84,6 +92,8 @@ class Reading(unittest.TestCase):
         self.assert_refused('{"context": {}, "benchmarks": [{}]}', what + 'benchmarks[0] has no text "name"')
         self.assert_refused('{"context": {}, "benchmarks": [{"name": "a", "time_unit": "s"}]}',
                             what + 'benchmarks[0] has no number "real_time"')
+        self.assert_refused('{"context": {}, "benchmarks": [{"name": "a", "real_time": 1, "cpu_time": "1"}]}',
+                            what + 'benchmarks[0] has no number "cpu_time"')
         self.assert_refused('{"context": {}, "benchmarks": [{"name": "a", "real_time": 1}]}',
                             what + 'benchmarks[0] has no "time_unit" of ns, us, ms, s')
         self.assert_refused('{"context": {}, "benchmarks": []}', ": holds no benchmark")
