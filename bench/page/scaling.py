@@ -8,6 +8,7 @@ from page.figure import (GREY, Figure, Row, Series, bars, by_scene, column, coun
 from stored_run import Result, Run
 
 MOST_CURVES = 7  # the colours but grey
+MOST_FLOWN = 0.01  # share of the steps beyond which their mean length says nothing of a single step
 
 
 def nodes(scene: str, result: Result) -> int | None:
@@ -126,7 +127,7 @@ def _scaling(run: Run, title: str, caption: str, curves: list[Series], y: dict[s
     for scene, results in scenes.items():
         for threads, result in results.items():
             ratio = speed(result) / speed(results[1])
-            rows.append([_label(scene, result), threads, ratio, 100 * ratio / threads, _step_ns(result),
+            rows.append([_label(scene, result), threads, ratio, 100 * ratio / threads, _step_ns(scene, result),
                          counter(result, "handover_ns") or run.handover_ns()])
     return Figure(title, caption, measure("^(case|growth|machine)/"),
                   ["scene", "threads", "speed-up", "efficiency, %", "step, ns", "hand-over, ns"], rows,
@@ -148,8 +149,15 @@ def efficiency(run: Run) -> Figure:
                     {"title": "speed-up divided by threads, %"})
 
 
-def _step_ns(result: Result) -> float | None:
-    elements, each = result.counters.get("elements"), per_update_ns(result)
+def _step_ns(scene: str, result: Result) -> float | None:
+    """Length of a step that each thread does. Whole runs have none: they hold start-up and output, and phases whose
+    elements differ. Nor has free flight: it does many steps at once, and threads do not meet in it."""
+    if scene.endswith("/whole") or result.counters.get("flown_share", 0) > MOST_FLOWN:
+        return None
+    steps, elements, each = (result.counters.get("steps_per_second"), result.counters.get("elements"),
+                             per_update_ns(result))
+    if steps:
+        return 1e9 / steps
     return elements * each if elements and each else None
 
 
@@ -159,7 +167,7 @@ def hand_over(run: Run) -> Figure:
     scenes = by_scene([*of_suite(run, "case"), *of_suite(run, "growth")])
     steps: list[tuple[str, float, float, float]] = []
     for scene, results in scenes.items():
-        length = _step_ns(results[1]) if 1 in results else None
+        length = _step_ns(scene, results[1]) if 1 in results else None
         beside = handover and length and (counter(results[1], "handover_ns") or handover)
         if length and beside:
             steps.append((_label(scene, results[1]), length, beside, length / beside))
@@ -168,6 +176,7 @@ def hand_over(run: Run) -> Figure:
               Series("a hand-over between 2 threads", 1, column(rows, 2))]
     return Figure(
         "A step beside a hand-over",
-        "Threads meet in each step, so steps must last many hand-overs for threads to pay; short hand-overs are good.",
+        "Threads meet in each step, so steps must last many hand-overs for threads to pay; short hand-overs are good. "
+        "Left out are whole runs, and phases that fly freely for more than 1 % of their steps, many of them at once.",
         measure("^(case|growth|machine)/"), ["scene", "step, ns", "hand-over, ns", "hand-overs in a step"], rows,
         bars(first_cells(rows), series, "time, ns", log=True))

@@ -52,7 +52,7 @@ def speed_up(threads: int, serial: float) -> float:
 Benchmark = tuple[str, float, dict[str, float]]
 
 CASES = {"ring_pull/whole": (200, 10e-3, 0.9), "edge_closure/whole": (2800, 0.15, 0.4),
-         "capture/whole": (2300, 0.2, 0.3), "capture/closing": (2300, 0.25, 0.2),
+         "capture/whole": (2300, 0.2, 0.3), "capture/deployment": (1800, 0.1, 0.5), "capture/closing": (2300, 0.25, 0.2),
          "large_capture/closing/long": (72000, 12.0, 0.05)}
 
 
@@ -61,11 +61,13 @@ def of_cases() -> Iterator[Benchmark]:
         for threads in THREADS:
             gain = speed_up(threads, serial)
             meeting = 0.0 if threads == 1 else min(0.6, serial)
+            steps = {} if case.endswith("/whole") else {
+                "steps_per_second": gain * 1.25e5, "flown_share": 0.9 if "deployment" in case else 0.004}
             shares = {"contacts": 0.3, "axial_forces": 0.3, "gather_and_move": 0.2, "broadphase": 0.1, "observe": 0.05}
             yield f"case/{case}/threads:{threads}", minutes / gain, {
                 "minutes_per_simulated_second": minutes / gain, "elements": elements, "nodes": elements * 0.9,
                 "element_updates_per_second": gain * 3e8, "omp_threads": threads, "handover_ns": 180.0,
-                "share_threads_meeting": meeting,
+                "share_threads_meeting": meeting, **steps,
                 **{f"share_{stage}": share * (1 - meeting) for stage, share in shares.items()}}
 
 

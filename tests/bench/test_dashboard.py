@@ -13,16 +13,22 @@ from typing import Any
 import sample
 import dashboard
 import summary
-from stored_run import read_run
+from page import scaling
+from stored_run import Run, read_run
 
 CHART_JS = "/* Chart.js is not looked at here */"
 
 
 def page_of(data: dict[str, Any], instructions: dict[str, Any] | None = None) -> str:
     """The page of one run without a history."""
+    return dashboard.render(run_of(data), [], instructions or {}, "", CHART_JS, sample.of_study(),
+                            sample.of_stability())
+
+
+def run_of(data: dict[str, Any]) -> Run:
+    """A stored run, read back."""
     with tempfile.TemporaryDirectory() as folder:
-        run = read_run(sample.store(Path(folder), "run", data))
-        return dashboard.render(run, [], instructions or {}, "", CHART_JS, sample.of_study(), sample.of_stability())
+        return read_run(sample.store(Path(folder), "run", data))
 
 
 def embedded(page: str, element_id: str) -> Any:
@@ -58,7 +64,7 @@ class Page(unittest.TestCase):
         chart = embedded(page, "figures")[0]
         paper = next(series for series in chart["series"] if "i7-6700HQ" in series["label"])
         self.assertEqual(dict(zip(chart["categories"], paper["values"])),
-                         {"capture, whole": 58.25, "capture, closing": 58.25, "edge_closure, whole": 110.2,
+                         {"capture, whole": 58.25, "capture, deployment": 58.25, "capture, closing": 58.25, "edge_closure, whole": 110.2,
                           "large_capture, closing": None, "ring_pull, whole, 200 elements": 10.1})
         self.assertIn("edge_closure, whole: 1,680 times faster", page)
 
@@ -108,6 +114,22 @@ class Page(unittest.TestCase):
         with tempfile.TemporaryDirectory() as folder:
             run = read_run(sample.store(Path(folder), "run", sample.google_json(only="element/")))
             self.assertIn("To measure it: <code>bench/stability</code>", dashboard.render(run, [], {}, "", CHART_JS))
+
+    def test_a_step_is_as_long_as_its_rate_says(self) -> None:
+        figure = scaling.hand_over(run_of(sample.google_json()))
+        steps = {row[0]: row[1] for row in figure.rows}
+        self.assertEqual(steps["capture, closing"], 8000)  # 125,000 a second, whatever elements times their time give
+        self.assertEqual(steps["net of 10,000 nodes"], 10_500 / 6e8 * 1e9)  # where no rate is counted
+
+    def test_whole_runs_and_free_flight_have_no_length_of_a_step(self) -> None:
+        run = run_of(sample.google_json())
+        beside = {row[0] for row in scaling.hand_over(run).rows}
+        self.assertLessEqual({"capture, closing", "large_capture, closing"}, beside)
+        self.assertFalse({"capture, whole", "ring_pull, whole", "edge_closure, whole", "capture, deployment"} & beside)
+        for figure in (scaling.speed_up(run), scaling.efficiency(run)):
+            without = {row[0] for row in figure.rows if row[figure.headers.index("step, ns")] is None}
+            self.assertEqual(without, {"capture, whole", "ring_pull, whole", "edge_closure, whole",
+                                       "capture, deployment"})
 
     def test_names_cannot_break_out_of_the_page(self) -> None:
         data = sample.google_json(machine="</script><b>", only="startup/")
