@@ -87,8 +87,8 @@ def figure_html(figure: Figure, index: int) -> str:
 
 def lead(run: Run) -> str:
     """Title, the headline against the paper, and what was measured on what."""
-    words = ("Speed of the solver, measured by <code>bench/run</code>. Times are medians over the repetitions; those of "
-             "an element, a kernel or an absent feature are the processor's, which other programs do not lengthen.")
+    words = ("Speed of the solver, measured by <code>bench/run</code>. Times are medians over the repetitions; those "
+             "of an element, a kernel or an absent feature are the processor's, which other programs do not lengthen.")
     beside = cases.times_faster(run)
     badges = " ".join(tag("span", f"{escape(case)}: {number(ratio)} times faster",
                           "badge good" if ratio > 1 else "badge poor") for case, ratio in beside)

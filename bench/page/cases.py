@@ -12,7 +12,10 @@ def minutes(result: Result) -> float | None:
 
 
 def paper_minutes(scene: str, result: Result) -> float | None:
-    """The paper's figure for the case of this scene, and the same number of elements where it gives several."""
+    """The paper's figure for a whole case, and the same number of elements where it gives several; it has none for
+    phases, which take more or less of the run than of the time simulated."""
+    if not scene.endswith("/whole"):
+        return None
     return paper_times.minutes_per_simulated_second(scene.split("/")[1], result.counters.get("elements"))
 
 
@@ -43,24 +46,23 @@ def run_time(run: Run) -> Figure:
               Series(f"paper, {paper_times.MACHINE}", GREY, column(rows, 4))]
     return Figure(
         "Run time of each case",
-        "Shorter is better, on a logarithmic scale; the paper gives one figure for the whole of a case, which stands "
-        "beside each of its phases.",
+        "Shorter is better, on a logarithmic scale; the paper gives one figure for the whole of a case and none for "
+        "its phases.",
         measure("^case/"),
         ["case", "1 thread, min/s", "fastest, min/s", "its threads", "paper, min/s", "times faster than the paper"],
         rows, bars(first_cells(rows), series, "run time per simulated second, minutes", log=True))
 
 
 def times_faster(run: Run) -> list[tuple[str, float]]:
-    """How many times faster than the paper: whole cases, or the phases of those measured in phases only."""
-    found: dict[str, list[tuple[str, str, float]]] = {}
+    """How many times faster than the paper each whole case is."""
+    found: list[tuple[str, float]] = []
     for scene, results in scenes(run).items():
         fastest = min(minutes(result) or 0 for result in results.values())
         first = next(iter(results.values()))
         theirs = paper_minutes(scene, first)
         if theirs:
-            found.setdefault(scene.split("/")[1], []).append((scene, scene_label(scene, first), theirs / fastest))
-    whole = {case: [row for row in rows if row[0].endswith("/whole")] for case, rows in found.items()}
-    return [(row[1], row[2]) for case, rows in found.items() for row in whole[case] or rows]
+            found.append((scene_label(scene, first), theirs / fastest))
+    return found
 
 
 STAGES = ["contacts", "axial_forces", "gather_and_move", "threads_meeting", "broadphase", "observe"]

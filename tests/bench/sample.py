@@ -52,8 +52,8 @@ def speed_up(threads: int, serial: float) -> float:
 Benchmark = tuple[str, float, dict[str, float]]
 
 CASES = {"ring_pull/whole": (200, 10e-3, 0.9), "edge_closure/whole": (2800, 0.15, 0.4),
-         "capture/whole": (2300, 0.2, 0.3), "capture/deployment": (1800, 0.1, 0.5), "capture/closing": (2300, 0.25, 0.2),
-         "large_capture/closing/long": (72000, 12.0, 0.05)}
+         "capture/whole": (2300, 0.2, 0.3), "capture/deployment": (1800, 0.1, 0.5),
+         "capture/closing": (2300, 0.25, 0.2), "large_capture/closing/long": (72000, 12.0, 0.05)}
 
 
 def of_cases() -> Iterator[Benchmark]:

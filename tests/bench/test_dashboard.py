@@ -64,9 +64,15 @@ class Page(unittest.TestCase):
         chart = embedded(page, "figures")[0]
         paper = next(series for series in chart["series"] if "i7-6700HQ" in series["label"])
         self.assertEqual(dict(zip(chart["categories"], paper["values"])),
-                         {"capture, whole": 58.25, "capture, deployment": 58.25, "capture, closing": 58.25, "edge_closure, whole": 110.2,
-                          "large_capture, closing": None, "ring_pull, whole, 200 elements": 10.1})
+                         {"capture, whole": 58.25, "capture, deployment": None, "capture, closing": None,
+                          "edge_closure, whole": 110.2, "large_capture, closing": None, "ring_pull, whole, 200 elements": 10.1})
         self.assertIn("edge_closure, whole: 1,680 times faster", page)
+
+    def test_phases_are_not_compared_with_the_papers_whole_case(self) -> None:
+        run = run_of(sample.google_json(only="case/capture/closing"))
+        self.assertNotIn("times faster", dashboard.lead(run))
+        self.assertEqual(summary.summary(run).splitlines()[1].split(),
+                         ["capture,", "closing", "0.250", "0.0625", "16", "-"])
 
     def test_what_is_not_measured_names_its_command(self) -> None:
         page = page_of(sample.google_json(only="element/"))
