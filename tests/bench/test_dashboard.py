@@ -65,7 +65,8 @@ class Page(unittest.TestCase):
         paper = next(series for series in chart["series"] if "i7-6700HQ" in series["label"])
         self.assertEqual(dict(zip(chart["categories"], paper["values"])),
                          {"capture, whole": 58.25, "capture, deployment": None, "capture, closing": None,
-                          "edge_closure, whole": 110.2, "large_capture, closing": None, "ring_pull, whole, 200 elements": 10.1})
+                          "edge_closure, whole": 110.2, "large_capture, closing": None,
+                          "ring_pull, whole, 200 elements": 10.1})
         self.assertIn("edge_closure, whole: 1,680 times faster", page)
 
     def test_phases_are_not_compared_with_the_papers_whole_case(self) -> None:
@@ -136,6 +137,15 @@ class Page(unittest.TestCase):
             without = {row[0] for row in figure.rows if row[figure.headers.index("step, ns")] is None}
             self.assertEqual(without, {"capture, whole", "ring_pull, whole", "edge_closure, whole",
                                        "capture, deployment"})
+
+    def test_the_share_of_the_triad_is_told_as_what_it_is(self) -> None:
+        run = run_of(sample.google_json(only="growth/"))
+        caption = scaling.triad_share(run).caption
+        for words in ("96 bytes a node", "24 bytes an item", "four steps share one sweep", "above 100 %"):
+            self.assertIn(words, caption)
+        piece = (sample.ROOT / "src/plan/piece.cpp").read_text(encoding="utf-8")
+        for what in ("sweep_levels = 4;", "nodes_in_cache = 8000;"):  # what the caption says of the solver
+            self.assertIn(what, piece)
 
     def test_names_cannot_break_out_of_the_page(self) -> None:
         data = sample.google_json(machine="</script><b>", only="startup/")
