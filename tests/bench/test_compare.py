@@ -74,13 +74,13 @@ class Compare(unittest.TestCase):
         self.assertRegex(self.compare("--all", self.before, self.before).stdout, rf"(?m)^{FAST} .* \+0\.0 % +same$")
 
     def test_warnings(self) -> None:
-        data = sample.google_json("cluster", isa="v4", compiler="Clang 19", build_type="Debug")
+        data = sample.google_json("cluster", isa="v4", compiler="Clang 19", build_type="Debug", mode="quick")
         for entry in data["benchmarks"]:
             if entry["name"].startswith("machine/handover"):
                 entry["handover_ns"] = 400.0
         done = self.compare(self.before, self.store("b", data))
         for what in ("machine differs (lab, Example CPU 8-Core; cluster, Example CPU 64-Core)",
-                     "isa differs (v3; v4)", "compiler differs", "build_type differs",
+                     "isa differs (v3; v4)", "compiler differs", "build_type differs", "mode differs (full; quick)",
                      "hand-over between threads differs (180 ns; 400 ns)"):
             self.assertIn(f"warning: {what}", done.stderr)
 
