@@ -1,4 +1,4 @@
-"""Figures of whole cases: run time beside the paper's, and which stage of a step takes it."""
+"""Figures of whole cases: run time beside the paper's, and which stage of the steps takes it."""
 from __future__ import annotations
 
 import paper_times
@@ -69,7 +69,7 @@ STAGES = ["contacts", "axial_forces", "gather_and_move", "threads_meeting", "bro
 
 
 def stages(run: Run) -> Figure:
-    """Shares of a step with one thread and with most threads: the meeting of threads shows only there."""
+    """Shares of the time with one thread and with most threads: the meeting of threads shows only there."""
     found = [(scene, threads, results[threads]) for scene, results in by_scene(of_suite(run, "case")).items()
              for threads in sorted({min(results), max(results)})
              if any(key.startswith("share_") for key in results[threads].counters)]
@@ -80,8 +80,9 @@ def stages(run: Run) -> Figure:
     shares["rest"] = [max(0.0, round(100 - sum(share or 0 for share in step), 3)) for step in zip(*shares.values())]
     rows = [[category, *(shares[stage][i] for stage in shares)] for i, category in enumerate(categories)]
     return Figure(
-        "Where the time of a step goes",
-        "Each bar is one step; long stages are worth working on, and few percent for threads meeting is good.",
+        "Where the time goes",
+        "Each bar is the time of all steps of a phase, or that of a whole run, with its output and, in the rest, its "
+        "start-up; long stages are worth working on, and few percent for threads meeting is good.",
         measure("^case/"),
         ["case", *(f"{stage.replace('_', ' ')}, %" for stage in shares)], rows, _stacked(categories, shares))
 
@@ -96,4 +97,4 @@ def _stacked(categories: list[str], shares: dict[str, list[float | None]]) -> Ch
     palette = [colour for colour in range(8) if colour != GREY]
     series = [Series(stage.replace("_", " "), GREY if stage == "rest" else palette[i % len(palette)], values)
               for i, (stage, values) in enumerate(shares.items()) if any(value for value in values)]
-    return bars(categories, series, "share of a step, %", stacked=True, most=100)
+    return bars(categories, series, "share of the time, %", stacked=True, most=100)

@@ -21,7 +21,7 @@ def element(run: Run) -> Figure:
     series = [Series(words, colour, column(rows, i)) for i, (words, colour) in enumerate(kinds.values(), 1)]
     return Figure(
         "Element update beside its yardstick",
-        "Shorter is better; the yardstick is the same arithmetic in bare loops, so its length is what can be had.",
+        "Shorter is better; the yardstick is the same arithmetic in bare loops: something to compare with, no bound.",
         measure("^element/"),
         ["chain", "yardstick, ns", "Cinch, ns", "with ledger, ns", "Cinch's speed, % of yardstick",
          "with ledger, % of yardstick"],

@@ -13,7 +13,7 @@ from typing import Any
 import sample
 import dashboard
 import summary
-from page import scaling
+from page import cases, parts, scaling
 from stored_run import Run, read_run
 
 CHART_JS = "/* Chart.js is not looked at here */"
@@ -146,6 +146,12 @@ class Page(unittest.TestCase):
         piece = (sample.ROOT / "src/plan/piece.cpp").read_text(encoding="utf-8")
         for what in ("sweep_levels = 4;", "nodes_in_cache = 8000;"):  # what the caption says of the solver
             self.assertIn(what, piece)
+
+    def test_captions_claim_no_more_than_was_measured(self) -> None:
+        run = run_of(sample.google_json())
+        self.assertIn("a whole run, with its output and, in the rest, its start-up", cases.stages(run).caption)
+        self.assertNotIn("one step", cases.stages(run).caption)
+        self.assertIn("no bound", parts.element(run).caption)
 
     def test_names_cannot_break_out_of_the_page(self) -> None:
         data = sample.google_json(machine="</script><b>", only="startup/")
