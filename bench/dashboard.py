@@ -114,29 +114,28 @@ def facts(run: Run) -> str:
 
 
 def history_html(points: dict[str, dict[str, list[over_time.Point]]]) -> str:
-    """A chooser of the benchmark, then a figure for each machine; dashboard.js fills them."""
-    benchmarks = sorted({benchmark for machine in points.values() for benchmark in machine})
+    """A chooser of the benchmark, then a figure for each place; dashboard.js fills them."""
+    benchmarks = sorted({benchmark for place in points.values() for benchmark in place})
     if not benchmarks:
         return tag("p", f"No history yet. To begin one: {tag('code', 'bench/run')}", "gap")
     first = over_time.first_choice(benchmarks)
     options = "".join(f'<option{" selected" if name == first else ""}>{escape(name)}</option>' for name in benchmarks)
     chooser = f'<p><label>Benchmark <select id="history-benchmark">{options}</select></label></p>'
-    figures = "".join(machine_html(machine, points[machine]) for machine in points)
+    figures = "".join(place_html(place, points[place]) for place in points)
     return chooser + tag("div", figures, "plots")
 
 
-def machine_html(machine: str, benchmarks: dict[str, list[over_time.Point]]) -> str:
-    """One machine: its curve, the numbers behind it, and what its latest commit changed."""
-    title = f"{machine}: time of one iteration"
+def place_html(place: str, benchmarks: dict[str, list[over_time.Point]]) -> str:
+    """One place: its curve, the numbers behind it, and what its latest commit changed."""
+    title = f"{place}: time of one iteration"
     caption = ("Lower is better; the band spans the fastest and the slowest repetition, and a curve that leaves the "
-               "band before it is a change of speed.")
+               "band before it is a change of speed. Runs that repeat nothing have no band.")
     headers = "".join(tag("th", words, look) for words, look in [
-        ("commit date", ""), ("commit", ""), ("median", "n"), ("least", "n"), ("greatest", "n"), ("n", "n"),
-        ("made with", "")])
+        ("commit date", ""), ("commit", ""), ("median", "n"), ("least", "n"), ("greatest", "n"), ("n", "n")])
     numbers = ("<details><summary>Numbers</summary><div class=\"scroll tall\"><table>"
                f"<thead><tr>{headers}</tr></thead><tbody></tbody></table></div></details>")
-    return (f'<figure class="plot" data-machine="{escape(machine)}">' + tag("h3", escape(title)) +
-            canvas(title, "data-history", 310) + '<p class="gap" hidden>This machine has not run this benchmark.</p>' +
+    return (f'<figure class="plot" data-place="{escape(place)}">' + tag("h3", escape(title)) +
+            canvas(title, "data-history", 310) + '<p class="gap" hidden>No such run holds this benchmark.</p>' +
             tag("figcaption", caption) + numbers + changes_html(over_time.latest_changes(benchmarks)) + "</figure>")
 
 
@@ -187,7 +186,7 @@ def render(run: Run, records: list[history.Record], instructions: parts.Instruct
     scripts = "".join(tag("script", script_safe(text)) + "\n"
                       for text in (chart_js, (HERE / "page/dashboard.js").read_text(encoding="utf-8")))
     data = as_json("figures", [figure.chart for figure in figures]) + as_json(
-        "history", {machine: over_time.chart_data(benchmarks) for machine, benchmarks in points.items()})
+        "history", {place: over_time.chart_data(benchmarks) for place, benchmarks in points.items()})
     return ('<!doctype html>\n<html lang="en">\n<head>\n<meta charset="utf-8">\n'
             '<meta name="viewport" content="width=device-width, initial-scale=1">\n<link rel="icon" href="data:,">\n'
             f"<title>Cinch benchmarks, {escape(run.about('commit'))}</title>\n<style>\n{style}</style>\n</head>\n"

@@ -143,10 +143,11 @@
   const day = ms => new Date(ms).toISOString().slice(0, 10);
 
   function historyChart(points) {
-    const greatest = Math.max(...points.map(point => point[3]));
+    const greatest = Math.max(...points.map(point => point[3] ?? point[1]));
     const [unit, size] = units.find(([, seconds]) => greatest >= seconds) || units[3];
-    const column = k => points.map(point => ({x: point[0], y: point[k] / size}));
-    const paint = colour('s0'), few = points.length === 1;
+    // without a range the band has no width
+    const column = k => points.map(point => ({x: point[0], y: (point[k] ?? point[1]) / size}));
+    const paint = colour('s0'), few = points.length === 1, bare = few || points.every(point => point[2] === null);
     const band = {
       borderWidth: 0, pointRadius: 0, pointHitRadius: 0, pointStyle: 'rect', showLine: true,
       backgroundColor: paint + '40', borderColor: 'transparent'
@@ -171,21 +172,23 @@
     chart.plugins.tooltip = {filter: item => item.datasetIndex === 2, callbacks: {
       title: items => items.length ? day(points[items[0].dataIndex][0]) + '  ' + points[items[0].dataIndex][5] : '',
       label: item => {
-        const [, median, least, most, n, , made] = points[item.dataIndex];
-        return [`${short(median / size)} ${unit}  (${short(least / size)} to ${short(most / size)}, n = ${n})`, made];
+        const [, median, least, most, n] = points[item.dataIndex];
+        const range = least === null ? '' : `${short(least / size)} to ${short(most / size)}, `;
+        return `${short(median / size)} ${unit}  (${range}n = ${n})`;
       }
     }};
-    return {type: 'scatter', data: {datasets: datasets.slice(few ? 2 : 0)}, options: chart};
+    return {type: 'scatter', data: {datasets: datasets.slice(bare ? 2 : 0)}, options: chart};
   }
 
   function historyRow(point) {
-    const [when, median, least, most, n, commit, made] = point;
-    const [unit, size] = units.find(([, seconds]) => most >= seconds) || units[3];
+    const [when, median, least, most, n, commit] = point;
+    const [unit, size] = units.find(([, seconds]) => (most ?? median) >= seconds) || units[3];
+    const time = value => value === null ? '–' : short(value / size) + ' ' + unit;
     const row = document.createElement('tr');
-    [day(when), commit, ...[median, least, most].map(v => short(v / size) + ' ' + unit), n, made].forEach((text, i) => {
+    [day(when), commit, ...[median, least, most].map(time), n].forEach((text, i) => {
       const cell = row.insertCell();
       cell.textContent = text;
-      if (i > 1 && i < 6) cell.className = 'n';
+      if (i > 1) cell.className = 'n';
     });
     return row;
   }
@@ -193,8 +196,8 @@
   function drawHistory() {
     const chooser = document.getElementById('history-benchmark');
     if (!chooser) return;
-    document.querySelectorAll('figure[data-machine]').forEach(figure => {
-      const points = history[figure.dataset.machine][chooser.value] || [];
+    document.querySelectorAll('figure[data-place]').forEach(figure => {
+      const points = history[figure.dataset.place][chooser.value] || [];
       const canvas = figure.querySelector('canvas');
       canvas.parentNode.hidden = !points.length;
       figure.querySelector('.gap').hidden = points.length > 0;

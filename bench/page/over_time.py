@@ -1,4 +1,5 @@
-"""The history in the page: for each machine and benchmark one point a commit. Machines are never joined."""
+"""The history in the page: for each place and benchmark one point a commit. A place is a machine with an instruction
+set, a compiler and a mode of bench/run: times of different places are never joined."""
 from __future__ import annotations
 
 import statistics
@@ -15,29 +16,38 @@ from text import duration
 
 @dataclass(frozen=True)
 class Point:
-    """All runs of one benchmark at one commit on one machine."""
+    """All runs of one benchmark at one commit in one place."""
 
     when: float  # ms since 1970, as JavaScript counts
     commit: str
     spread: Spread
     repetitions: int
-    made_with: str
+    ranged: bool  # a run has repeated it: single measurements of several runs are no range
+
+
+MADE_WITH = ("isa", "compiler", "build_type", "mode")
 
 
 def points(records: list[Record]) -> dict[str, dict[str, list[Point]]]:
-    """Points by machine, then by benchmark, in the order of time."""
+    """Points by place, those of a machine in a row, then by benchmark, in the order of time."""
+    machines = list(dict.fromkeys(record["machine_id"] for record in records))
+    records = sorted(records, key=lambda record: machines.index(record["machine_id"]))
     groups: dict[tuple[str, str], dict[tuple[str, str], list[Record]]] = {}
     by_processor = {record["benchmark"] for record in records if record.get("clock") == PROCESSOR}
     for record in records:
-        commits = groups.setdefault((record["machine_id"], _benchmark(record, by_processor)), {})
+        commits = groups.setdefault((_place(record), _benchmark(record, by_processor)), {})
         # changes that are no commit yet are a point of their own for each run, at the time of the run
         own = record["run"] if record.get("dirty") else ""
         commits.setdefault((record["commit"], own), []).append(record)
     found: dict[str, dict[str, list[Point]]] = {}
-    for (machine, benchmark), commits in groups.items():
+    for (place, benchmark), commits in groups.items():
         row = sorted((_point(same) for same in commits.values()), key=lambda point: point.when)
-        found.setdefault(machine, {})[benchmark] = row
+        found.setdefault(place, {})[benchmark] = row
     return found
+
+
+def _place(record: Record) -> str:
+    return f'{record["machine_id"]}; ' + ", ".join(str(record.get(key) or "unknown") for key in MADE_WITH)
 
 
 def _benchmark(record: Record, by_processor: set[str]) -> str:
@@ -53,9 +63,8 @@ def _point(records: list[Record]) -> Point:
     commit = last["commit"] + (" with changes" if dirty else "")
     spread = Spread(statistics.median(time["median"] for time in times), min(time["min"] for time in times),
                     max(time["max"] for time in times))
-    made_with = ", ".join(str(last.get(key, "")) for key in ("isa", "compiler", "mode"))
     when = _milliseconds(last["date"] if dirty else last["commit_date"])
-    return Point(when, commit, spread, sum(time["n"] for time in times), made_with)
+    return Point(when, commit, spread, sum(time["n"] for time in times), any(time["n"] > 1 for time in times))
 
 
 def _milliseconds(date: str) -> float:
@@ -65,12 +74,18 @@ def _milliseconds(date: str) -> float:
         return 0.0
 
 
-def chart_data(machine: dict[str, list[Point]]) -> dict[str, Any]:
-    """What dashboard.js draws for one machine: when, median, least, greatest in seconds, n, commit, made with."""
-    return {benchmark: [[point.when, *(float(f"{value:.6g}") for value in
-                                       (point.spread.median, point.spread.least, point.spread.greatest)),
-                         point.repetitions, point.commit, point.made_with] for point in row]
-            for benchmark, row in machine.items()}
+def chart_data(place: dict[str, list[Point]]) -> dict[str, Any]:
+    """What dashboard.js draws for one place: when, median, least, greatest in seconds, n, commit. Without a range least
+    and greatest are null."""
+    def seconds(point: Point) -> list[float | None]:
+        ends = (point.spread.least, point.spread.greatest)
+        return [_short(point.spread.median), *(_short(end) if point.ranged else None for end in ends)]
+    return {benchmark: [[point.when, *seconds(point), point.repetitions, point.commit] for point in row]
+            for benchmark, row in place.items()}
+
+
+def _short(seconds: float) -> float:
+    return float(f"{seconds:.6g}")
 
 
 @dataclass(frozen=True)
@@ -83,13 +98,13 @@ class Change:
     verdict: str
 
 
-def latest_changes(machine: dict[str, list[Point]]) -> list[Change]:
-    """What the machine's latest commit changed, largest change first; benchmarks it did not run are left out, and so
+def latest_changes(place: dict[str, list[Point]]) -> list[Change]:
+    """What the latest commit of a place changed, largest change first; benchmarks it did not run are left out, and so
     are single measurements, whose ranges are unknown."""
-    latest = max((row[-1].when for row in machine.values()), default=0.0)
+    latest = max((row[-1].when for row in place.values()), default=0.0)
     changes = [Change(benchmark, row[-2], row[-1], judge(row[-2].spread, row[-1].spread, TOLERANCE))
-               for benchmark, row in machine.items()
-               if len(row) > 1 and row[-1].when == latest and min(point.repetitions for point in row[-2:]) > 1]
+               for benchmark, row in place.items()
+               if len(row) > 1 and row[-1].when == latest and all(point.ranged for point in row[-2:])]
     return sorted(changes, key=lambda change: -abs(change.after.spread.median / change.before.spread.median - 1))
 
 

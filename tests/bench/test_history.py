@@ -71,6 +71,17 @@ class History(unittest.TestCase):
         self.assert_refused(good.replace('"run"', '"ran"'), ":1: lacks run")
 
 
+LAB = "lab, Example CPU 8-Core; v3, GNU 12.2.0, Release, full"
+
+
+def timed(seconds: float, repetitions: int = 1, **about: str) -> history.Record:
+    """A line of the lab's history."""
+    return {"schema": 1, "run": "r", "date": "2026-01-10T11:00:00Z", "commit": "aaaaaaaaaaaa",
+            "commit_date": "2026-01-10T11:00:00Z", "machine_id": "lab, Example CPU 8-Core", "isa": "v3",
+            "compiler": "GNU 12.2.0", "build_type": "Release", "mode": "full", "benchmark": "case/x",
+            "real_time_s": {"median": seconds, "min": seconds, "max": seconds, "n": repetitions}, **about}
+
+
 class OverTime(unittest.TestCase):
     def setUp(self) -> None:
         with tempfile.TemporaryDirectory() as folder:
@@ -81,17 +92,40 @@ class OverTime(unittest.TestCase):
 
     def test_machines_are_never_joined_and_commits_stand_in_order(self) -> None:
         points = over_time.points(self.records)
-        self.assertEqual(set(points), {"lab, Example CPU 8-Core", "cluster, Example CPU 64-Core"})
+        self.assertEqual(set(points), {LAB, "cluster, Example CPU 64-Core; v3, GNU 12.2.0, Release, full"})
         for machine in points.values():
             row = machine["case/capture/whole/threads:1"]
             self.assertEqual([point.commit for point in row], list(sample.COMMITS))
             self.assertEqual([point.repetitions for point in row], [5, 5, 5])
 
+    def test_what_a_run_was_made_with_is_kept_apart(self) -> None:
+        others = [timed(4e-4, 1, **{key: value}) for key, value in (
+            ("isa", "v4"), ("compiler", "Clang 19"), ("build_type", "Debug"), ("mode", "quick"), ("machine_id", "m"))]
+        points = over_time.points([timed(1e-4, 5), *others])
+        self.assertEqual([place["case/x"][0].spread.median for place in points.values()], [1e-4, *5 * [4e-4]])
+        self.assertEqual(next(iter(points)), LAB)
+        self.assertIn("lab, Example CPU 8-Core; v3, GNU 12.2.0, Release, quick", points)
+
+    def test_figures_of_one_machine_stand_in_a_row(self) -> None:
+        points = over_time.points([timed(1, machine_id="a"), timed(1, machine_id="b"),
+                                   timed(1, machine_id="a", mode="quick")])
+        self.assertEqual([place[0] for place in points], ["a", "a", "b"])
+
+    def test_single_measurements_are_no_range_however_many_runs_there_are(self) -> None:
+        later = {"commit": "bbbbbbbbbbbb", "commit_date": "2026-02-20T11:00:00Z"}
+        quick = [timed(1.0), timed(1.01), timed(2.0, **later), timed(2.01, **later)]
+        (place,) = over_time.points(quick).values()
+        self.assertEqual(over_time.latest_changes(place), [])
+        self.assertEqual([point[1:5] for point in over_time.chart_data(place)["case/x"]],
+                         [[1.005, None, None, 2], [2.005, None, None, 2]])
+        (place,) = over_time.points([timed(1.0, 5), timed(2.0, 5, **later)]).values()
+        self.assertEqual([change.verdict for change in over_time.latest_changes(place)], ["slower"])
+
     def test_runs_of_one_commit_are_one_point_but_uncommitted_changes_are_not(self) -> None:
         again = dict(self.records[0], run="again")
         changed = dict(self.records[0], run="changed", dirty=True, date="2026-06-01T00:00:00Z")
         points = over_time.points([self.records[0], again, changed])
-        row = points[again["machine_id"]][again["benchmark"]]
+        row = points[next(iter(points))][again["benchmark"]]
         self.assertEqual([(point.commit, point.repetitions) for point in row],
                          [(again["commit"], 10), (again["commit"] + " with changes", 5)])
 
@@ -104,7 +138,7 @@ class OverTime(unittest.TestCase):
                          {"element/bare/200 (on the wall)": [5], "element/bare/200": [5]})
 
     def test_latest_changes(self) -> None:
-        machine = over_time.points(self.records)["lab, Example CPU 8-Core"]
+        machine = over_time.points(self.records)[LAB]
         changed = [(change.benchmark, change.verdict) for change in over_time.latest_changes(machine)
                    if change.verdict != "same"]
         self.assertEqual(changed, [("case/capture/whole/threads:1", "faster")])
