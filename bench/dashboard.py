@@ -28,7 +28,7 @@ CHART_JS = Path("/usr/share/javascript/chart.js/chart.min.js")  # Debian's libjs
 
 
 def sections(run: Run, instructions: parts.Instructions, counted_on: str,
-             study: list[precision.Problem], matrix: stability.Matrix | None) -> list[tuple[str, list[Figure]]]:
+             study: precision.Study | None, matrix: stability.Matrix | None) -> list[tuple[str, list[Figure]]]:
     """All figures of one run, in the order of the page."""
     return [
         ("Cases", [cases.run_time(run), cases.stages(run)]),
@@ -172,11 +172,11 @@ def as_json(element_id: str, data: Any) -> str:
 
 
 def render(run: Run, records: list[history.Record], instructions: parts.Instructions, counted_on: str,
-           chart_js: str, study: Sequence[precision.Problem] = (), matrix: stability.Matrix | None = None) -> str:
+           chart_js: str, study: precision.Study | None = None, matrix: stability.Matrix | None = None) -> str:
     """The whole page."""
     body = lead(run)
     figures: list[Figure] = []
-    for heading, group in sections(run, instructions, counted_on, list(study), matrix):
+    for heading, group in sections(run, instructions, counted_on, study, matrix):
         drawn = "".join(figure_html(figure, index) for index, figure in enumerate(group, len(figures)))
         body += tag("h2", heading) + tag("div", drawn, "plots")
         figures += group

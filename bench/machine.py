@@ -31,6 +31,11 @@ def cpu_info(key: str) -> str:
     return found[1].strip() if found else ""
 
 
+def cpu() -> str:
+    """The processor's name, or its architecture where it has none."""
+    return cpu_info("model name") or platform.machine()
+
+
 def isa(flags: set[str], native: bool, wanted: str | None) -> str:
     """The instruction set that the kernels take: the highest that processor, build and CINCH_ISA allow."""
     if wanted:
@@ -77,7 +82,7 @@ def context(build: Path, mode: str, machine: str) -> dict[str, str]:
     native = cache_value(build, "CINCH_NATIVE_ISAS") == "ON" and platform.machine() == "x86_64"
     return {
         "machine": machine,
-        "cpu": cpu_info("model name") or platform.machine(),
+        "cpu": cpu(),
         "cores": str(len(os.sched_getaffinity(0))),
         "isa": isa(set(cpu_info("flags").split()), native, os.environ.get("CINCH_ISA")),
         "compiler": compiler(build),

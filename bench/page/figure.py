@@ -96,6 +96,13 @@ def whole(value: float | None) -> int | None:
     return None if value is None else round(value)
 
 
+def origin(data: Chart) -> str:
+    """By what and where a figure was measured that is not of the page's own run."""
+    machine = ", ".join(str(data[key]) for key in ("machine", "cpu") if data.get(key))
+    return (f"Not of this page's run: measured at commit {data.get('commit') or 'unknown'} on "
+            f"{machine or 'an unknown machine'}, instruction set {data.get('isa') or 'unknown'}.")
+
+
 def first_cells(rows: Sequence[Row]) -> list[str]:
     """The first column, as the names of bars."""
     return [str(row[0]) for row in rows]

@@ -5,20 +5,21 @@ from pathlib import Path
 from typing import Any
 
 from command_line import BadInput
-from page.figure import GREY, Figure, Row, Series, lines, rounded
+from page.figure import GREY, Figure, Row, Series, lines, origin, rounded
 from stored_run import parse_json, read_text
 from text import number
 
+Study = dict[str, Any]
 Problem = dict[str, Any]
 
 COMMAND = "bench/study"
 COLOURS = [0, 1, 2, 3, 5, 6, 7]  # grey is the paper's
 
 
-def read_study(path: Path | None) -> list[Problem]:
-    """The problems of a study; none when there is no such file."""
+def read_study(path: Path | None) -> Study | None:
+    """A study's problems, and by what and where it was made; none when there is no such file."""
     if path is None or not path.exists():
-        return []
+        return None
     data = parse_json(read_text(path), str(path))
     problems = data.get("problems") if isinstance(data, dict) else None
     known = isinstance(problems, list) and all(
@@ -26,17 +27,17 @@ def read_study(path: Path | None) -> list[Problem]:
         <= problem.keys() for problem in problems)
     if not known:
         raise BadInput(f'{path}: must hold "problems" as bench/study writes them')
-    return problems
+    return data
 
 
-def figures(problems: list[Problem]) -> list[Figure]:
+def figures(study: Study | None) -> list[Figure]:
     """One figure for each problem; without a study one that says how to have it."""
-    if not problems:
+    if not study or not study["problems"]:
         return [Figure("Error against run time", "", COMMAND, [], [], {"series": []})]
-    return [precision(problem) for problem in problems]
+    return [precision(problem, origin(study)) for problem in study["problems"]]
 
 
-def precision(problem: Problem) -> Figure:
+def precision(problem: Problem, made: str) -> Figure:
     """Each run as a point: run time across, error upwards; one curve for each method and choice of step."""
     runs = [run for run in problem["runs"] if "failure" not in run]
     curves: dict[str, list[Any]] = {}
@@ -45,7 +46,7 @@ def precision(problem: Problem) -> Figure:
     series = [Series(name, COLOURS[i % len(COLOURS)], points) for i, (name, points) in enumerate(curves.items())]
     papers = [_point(run) for run in runs if run["papers_choice"]]
     return Figure(
-        f"Error against run time: {problem['title']}", _caption(problem), COMMAND,
+        f"Error against run time: {problem['title']}", f"{_caption(problem)} {made}", COMMAND,
         ["method and step", "elements", "step, s", "error, %", "a run from the mean, %", "run time, s/s",
          "energy residual", "observed order", "remark"],
         [_row(problem, run) for run in problem["runs"]],

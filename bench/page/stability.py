@@ -5,7 +5,7 @@ from pathlib import Path
 from typing import Any, Callable
 
 from command_line import BadInput
-from page.figure import Figure, Row, Series, bars, lines, rounded
+from page.figure import Figure, Row, Series, bars, lines, origin, rounded
 from stored_run import parse_json, read_text
 
 Matrix = dict[str, Any]
@@ -45,7 +45,7 @@ def verdicts(matrix: Matrix) -> Figure:
     return Figure(
         "Stability matrix: verdicts",
         "Held: bounded, its energy accounted for. Stopped: by a message that names item, time and cause. FAILED: "
-        f"neither; there must be none. Mode: {matrix.get('mode', 'quick')}.",
+        f"neither; there must be none. Mode: {matrix.get('mode', 'quick')}. {origin(matrix)}",
         COMMAND, ["group", "parameter", "value", "must", "verdict", "energy residual", "steps", "message"],
         [_row(cell) for cell in matrix["cells"]],
         bars([group["name"] for group in groups], [one for one in series if any(one.values)], "cells", stacked=True))
@@ -55,7 +55,7 @@ def stiffness(matrix: Matrix) -> Figure:
     """Residual over the modulus, a curve for each element length."""
     cells = _cells(matrix, "stiffness", "modulus, element length")
     return _figure(
-        "Energy residual with the automatic step, over modulus and element length",
+        matrix, "Energy residual with the automatic step, over modulus and element length",
         "Low is good, level as well: the automatic step then suits them all.", cells,
         lambda cell: f"{cell['place']['element_m']:g} m", "modulus_Pa", "Young's modulus, Pa", log=True)
 
@@ -63,7 +63,7 @@ def stiffness(matrix: Matrix) -> Figure:
 def slack(matrix: Matrix) -> Figure:
     """Residual over the step, a curve for each damping and way to begin."""
     return _figure(
-        "Energy residual of a thread that turns slack and taut",
+        matrix, "Energy residual of a thread that turns slack and taut",
         "Low is good; runs above 0.05 were stopped. Undamped threads need steps far below the stable one.",
         [cell for cell in matrix["cells"] if cell["group"] == "slack and taut"],
         lambda cell: f"{cell['parameter'].split(',')[0]}, damping ratio {cell['place']['damping']:g}",
@@ -73,7 +73,7 @@ def slack(matrix: Matrix) -> Figure:
 def impacts(matrix: Matrix) -> Figure:
     """Residual over the speed, a curve for what hits what."""
     return _figure(
-        "Energy residual of impacts with the automatic step",
+        matrix, "Energy residual of impacts with the automatic step",
         "Low is good; what is too hard for the step was stopped and told with a step that would carry it.",
         [cell for cell in matrix["cells"] if "speed_m_s" in cell["place"]],
         lambda cell: cell["parameter"].removesuffix(", speed"), "speed_m_s", "speed, m/s", log=True)
@@ -83,15 +83,15 @@ def _cells(matrix: Matrix, group: str, parameter: str) -> list[CellOf]:
     return [cell for cell in matrix["cells"] if (cell["group"], cell["parameter"]) == (group, parameter)]
 
 
-def _figure(title: str, caption: str, cells: list[CellOf], label: Callable[[CellOf], str], across: str, words: str, *,
-            log: bool) -> Figure:
+def _figure(matrix: Matrix, title: str, caption: str, cells: list[CellOf], label: Callable[[CellOf], str], across: str,
+            words: str, *, log: bool) -> Figure:
     curves: dict[str, list[tuple[float, float | None]]] = {}
     for cell in cells:
         curves.setdefault(label(cell), []).append((cell["place"][across], _drawable(cell["residual"])))
     series = [Series(name, COLOURS[i % len(COLOURS)], sorted(points, key=lambda point: point[0]))
               for i, (name, points) in enumerate(curves.items()) if any(y is not None for _, y in points)]
     rows: list[Row] = [[label(cell), cell["place"][across], cell["residual"], cell["verdict"]] for cell in cells]
-    return Figure(title, caption, COMMAND, ["curve", words, "energy residual", "verdict"], rows,
+    return Figure(title, f"{caption} {origin(matrix)}", COMMAND, ["curve", words, "energy residual", "verdict"], rows,
                   lines(series, {"title": words, "log": log}, {"title": "energy residual", "log": True}))
 
 

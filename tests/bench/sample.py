@@ -145,8 +145,9 @@ INSTRUCTIONS: dict[str, dict[str, float]] = {"rings": {"counted": 1001000, "stri
                                              "balls": {"counted": 1000000, "stripped": 1000000}}
 
 
-def of_study() -> list[dict[str, Any]]:
-    """One problem as bench/study writes it: two methods, one of them with the paper's choice, and a run that failed."""
+def of_study() -> dict[str, Any]:
+    """A study of one problem as bench/study writes it: two methods, one of them with the paper's choice, and a run that
+    failed."""
     def run(method: str, elements: int, error: float, seconds: float, papers: bool = False) -> dict[str, Any]:
         return {"series": f"{method}, step 1e-06 s", "method": method, "elements": elements, "step_s": 1e-6,
                 "papers_choice": papers, "errors": {"error": error}, "energy_residual": 1e-4,
@@ -156,8 +157,10 @@ def of_study() -> list[dict[str, Any]]:
     runs.append({"series": "sliding, step 1e-06 s", "method": "sliding", "elements": 2, "step_s": 0.0,
                  "papers_choice": False, "failure": "error: at t = 1 s <something> went wrong"})
     best = [{"error": 0.1, "run": 3}, {"error": 0.0001, "run": None}]
-    return [{"name": "pull", "title": "A pull (Sec. 5.1)", "measure": "distance", "reference_error": 0.0004,
-             "runs": runs, "best": best, "orders": {"contact, step 1e-06 s": 1.0}}]
+    problem = {"name": "pull", "title": "A pull (Sec. 5.1)", "measure": "distance", "reference_error": 0.0004,
+               "runs": runs, "best": best, "orders": {"contact, step 1e-06 s": 1.0}}
+    return {"version": "0.1.0", "commit": "dddddddddddd", "compiler": "GNU", "isa": "v4", "machine": "desk",
+            "cpu": "Example CPU 2-Core", "problems": [problem]}
 
 
 def of_stability() -> dict[str, Any]:
@@ -177,8 +180,8 @@ def of_stability() -> dict[str, Any]:
     groups = [{"name": name, **{words.lower(): sum(cell["group"] == name and cell["verdict"] == words for cell in cells)
                                 for words in ("held", "stopped", "FAILED")}}
               for name in ("stiffness", "slack and taut", "motion")]
-    return {"version": "0.1.0", "commit": "c", "compiler": "GNU", "isa": "v3", "mode": "quick", "groups": groups,
-            "cells": cells}
+    return {"version": "0.1.0", "commit": "eeeeeeeeeeee", "compiler": "GNU", "isa": "v3", "mode": "quick",
+            "groups": groups, "cells": cells}
 
 
 def store_page(folder: Path) -> Path:

@@ -1,4 +1,4 @@
-"""bench/compare as a program: planted changes, noise, warnings, exit codes; and bench/run's refusals."""
+"""bench/compare as a program: planted changes, noise, warnings, exit codes; and refusals of bench/run and others."""
 from __future__ import annotations
 
 import subprocess
@@ -111,6 +111,11 @@ class RunRefuses(unittest.TestCase):
             self.assertEqual((done.returncode, done.stdout), (2, ""))
             self.assertTrue(done.stderr.startswith(message), done.stderr)
             self.assertEqual(done.stderr.count("\n"), 1)
+
+    def test_study_and_stability_want_a_machine_s_name(self) -> None:
+        for program in ("study", "stability"):
+            done = subprocess.run([sample.BENCH / program, "--machine"], capture_output=True, text=True, check=False)
+            self.assertEqual((done.returncode, done.stdout, done.stderr), (2, "", "error: --machine needs a name\n"))
 
 
 if __name__ == "__main__":

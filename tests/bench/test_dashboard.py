@@ -13,7 +13,8 @@ from typing import Any
 import sample
 import dashboard
 import summary
-from page import cases, parts, scaling
+from page import cases, parts, precision, scaling, stability
+from machine import cpu
 from stored_run import Run, read_run
 
 CHART_JS = "/* Chart.js is not looked at here */"
@@ -100,6 +101,13 @@ class Page(unittest.TestCase):
         self.assertEqual(chart["series"][0]["values"], [[0.25, 4.0], [0.5, 2.0]])
         self.assertIn("within 10 %: sliding, step 1e-06 s, 6 elements; within 0.01 %: none.", page)
         self.assertIn("at t = 1 s &lt;something&gt; went wrong", page)
+
+    def test_study_and_matrix_name_their_own_commit_and_machine(self) -> None:
+        study, matrix = precision.figures(sample.of_study()), stability.figures(sample.of_stability())
+        for figure in study:
+            self.assertIn("commit dddddddddddd on desk, Example CPU 2-Core, instruction set v4.", figure.caption)
+        for figure in matrix:  # written before machines were
+            self.assertIn("commit eeeeeeeeeeee on an unknown machine, instruction set v3.", figure.caption)
 
     def test_a_page_without_a_study_says_how_to_have_it(self) -> None:
         with tempfile.TemporaryDirectory() as folder:
@@ -197,6 +205,13 @@ class Programs(unittest.TestCase):
             file.write_text(text, encoding="utf-8")
             self.assertEqual(self.refused(self.run_file, "--chart-js", self.run_file, "--stability", file),
                              f'error: {file}: must hold "groups" and "cells" as bench/stability writes them\n')
+
+    def test_a_study_is_signed_with_its_machine(self) -> None:
+        file = self.folder / "study.json"
+        file.write_text(json.dumps({"commit": "c", "isa": "v3", "problems": [{"error": 1e-17}]}), encoding="utf-8")
+        subprocess.run([sys.executable, "-W", "error", sample.BENCH / "sign.py", file, "--machine", "desk"], check=True)
+        self.assertEqual(json.loads(file.read_text(encoding="utf-8")),
+                         {"machine": "desk", "cpu": cpu(), "commit": "c", "isa": "v3", "problems": [{"error": 1e-17}]})
 
     def test_no_chart_js_names_the_package(self) -> None:
         self.assertEqual(self.refused(self.run_file, "--chart-js", "/none"),

@@ -18,6 +18,7 @@ STUDY = os.environ.get("CINCH_STUDY")
 
 @unittest.skipUnless(STUDY, "CINCH_STUDY names the program")
 class Study(unittest.TestCase):
+    study: precision.Study
     problems: dict[str, precision.Problem]
     table: list[dict[str, str]]
 
@@ -25,9 +26,11 @@ class Study(unittest.TestCase):
     def setUpClass(cls) -> None:
         with tempfile.TemporaryDirectory() as folder:
             subprocess.run([str(STUDY), folder, "--trial"], capture_output=True, check=True)
-            cls.problems = {problem["name"]: problem for problem in precision.read_study(Path(folder) / "study.json")}
+            study = precision.read_study(Path(folder) / "study.json")
             with (Path(folder) / "study.csv").open(encoding="utf-8") as file:
                 cls.table = list(csv.DictReader(file))
+        assert study
+        cls.study, cls.problems = study, {problem["name"]: problem for problem in study["problems"]}
 
     def runs(self, problem: str) -> list[dict[str, Any]]:
         return [run for run in self.problems[problem]["runs"] if "errors" in run]
@@ -99,7 +102,7 @@ class Study(unittest.TestCase):
 
     def test_the_page_draws_it(self) -> None:
         problems = list(self.problems.values())
-        figures = precision.figures(problems)
+        figures = precision.figures(self.study)
         self.assertEqual(len(figures), len(problems))
         for problem, figure in zip(problems, figures):
             self.assertEqual(len(figure.rows), len(problem["runs"]))
