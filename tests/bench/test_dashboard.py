@@ -100,7 +100,17 @@ class Page(unittest.TestCase):
                          ["the paper's own choices", "contact, step 1e-06 s", "sliding, step 1e-06 s"])
         self.assertEqual(chart["series"][0]["values"], [[0.25, 4.0], [0.5, 2.0]])
         self.assertIn("within 10 %: sliding, step 1e-06 s, 6 elements; within 0.01 %: none.", page)
+        self.assertIn("reference&#x27;s own is 0.0400 %. Fastest, with that and what chance may add counted in: ", page)
         self.assertIn("at t = 1 s &lt;something&gt; went wrong", page)
+
+    def test_chance_and_the_reference_s_own_error_count_against_a_setting(self) -> None:
+        (problem,) = sample.of_study()["problems"]
+        sliding = problem["runs"][3]  # is off by 0.833 %, the reference by 0.04 %
+        self.assertEqual(precision.best_within(problem, 0.0088), sliding)
+        self.assertEqual(precision.best_within(problem, 0.0085), problem["runs"][4])
+        sliding["errors"]["uncertainty"] = 0.0002
+        self.assertEqual(precision.best_within(problem, 0.0088), problem["runs"][4])
+        self.assertIsNone(precision.best_within(problem, 0.0004))
 
     def test_study_and_matrix_name_their_own_commit_and_machine(self) -> None:
         study, matrix = precision.figures(sample.of_study()), stability.figures(sample.of_stability())
