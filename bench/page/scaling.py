@@ -92,8 +92,9 @@ def memory(run: Run) -> Figure:
 
 
 def speed(result: Result) -> float:
-    """Work a second: element updates where they are counted, else iterations."""
-    return result.counters.get("element_updates_per_second") or 1 / result.median
+    """Work a second: steps or element updates where counted, else iterations. Free flight counts steps alone."""
+    counters = result.counters
+    return counters.get("steps_per_second") or counters.get("element_updates_per_second") or 1 / result.median
 
 
 def _threaded(run: Run) -> dict[str, dict[int, Result]]:

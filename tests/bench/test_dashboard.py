@@ -146,6 +146,14 @@ class Page(unittest.TestCase):
         self.assertEqual(steps["capture, closing"], 8000)  # 125,000 a second, whatever elements times their time give
         self.assertEqual(steps["net of 10,000 nodes"], 10_500 / 6e8 * 1e9)  # where no rate is counted
 
+    def test_threads_are_compared_by_steps_where_one_side_counts_no_elements(self) -> None:
+        data = sample.google_json(only="case/capture/closing")
+        for entry in data["benchmarks"]:
+            if "threads:2/" in entry["run_name"]:
+                entry.pop("element_updates_per_second", None)
+        rows = {row[1]: row[2] for row in scaling.speed_up(run_of(data)).rows}
+        self.assertAlmostEqual(rows[2], sample.speed_up(2, 0.2))
+
     def test_whole_runs_and_free_flight_have_no_length_of_a_step(self) -> None:
         run = run_of(sample.google_json())
         beside = {row[0] for row in scaling.hand_over(run).rows}
