@@ -60,6 +60,21 @@ TEST(Determinism, SlidingCapture) {
 TEST(Determinism, HeldCapture) { expect_same_for_all_threads(held_capture(), {2, 3}, 8, true); }
 TEST(Determinism, FullLargeCapture) { expect_same_for_all_threads(full_large_capture(), {2, 7}, 0, true); }
 
+TEST(Determinism, ThreadsMayChangeAtAnyStep) {
+  for (const Case& one : {ring_pull(), edge_closure(), capture(), small_large_capture(), sliding_ring_pull(),
+                          sliding_capture(), held_capture()}) {
+    SCOPED_TRACE(one.name);
+    Simulation simulation(read(one), 2);
+    std::int64_t step = 0;
+    for (std::int64_t change = 0; step < one.steps; ++change) {
+      simulation.use_threads(static_cast<int>(1 + change % 3));
+      simulation.advance_to(step = std::min(step + 1 + 41 * change, one.steps));
+      if (change % 2 == 0) simulation.look();  // before and after a change
+    }
+    expect_same(outcome_of(simulation), run(one, 1));
+  }
+}
+
 // A hanging net too large for the cache, without contacts: several steps go through it in one sweep.
 const char* const hanging_net = R"(schema = 1
 [time]

@@ -20,6 +20,7 @@ class ContactList {
  public:
   /// `margin` in m; 0: some unstretched element lengths of the finest set. Up to `threads` search at once.
   ContactList(const Model& model, double margin, int threads = 1);
+  void use_threads(int threads) { searches_.resize(static_cast<std::size_t>(threads)); }
 
   /// Finds all pairs anew, the same for any number of threads. The tallies of the balls' old pairs are summed
   /// up into one, those of new pairs begin.

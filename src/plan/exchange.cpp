@@ -69,6 +69,7 @@ void Exchange::set_up(const std::vector<std::unique_ptr<Piece>>& pieces, const s
   const auto count = pieces.size();
   const int threads = static_cast<int>(count);
   dt_ = dt;
+  if (posts_.size() != count) posts_.clear();  // other threads: rounds begin anew
   while (posts_.size() < count) posts_.push_back(std::make_unique<Post>());
   sent_.assign(count, {});
   received_.resize(count);

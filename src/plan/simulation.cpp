@@ -94,8 +94,12 @@ Simulation::Simulation(const Scene& scene, Preparation preparation, int threads,
 
 void Simulation::make_ready(int threads) {
   omp_set_dynamic(0);
-  threads_ = available_threads(
-      threads > 0 ? threads : choose_threads(preparation_.whole().elements, omp_get_max_threads()));
+  const Index elements = preparation_.whole().elements;
+  const bool tries = threads == 0 && ThreadChoice::worth_it(elements);
+  const int wanted = threads > 0 ? threads : choose_threads(elements, omp_get_max_threads());
+  const int given = available_threads(tries ? omp_get_max_threads() : wanted);
+  threads_ = std::min(wanted, given);
+  if (tries) most_threads_ = given;
   probe_columns_ = cinch::probe_columns(scene_, preparation_.assembly);
   enclosed_.assign(preparation_.assembly.balls.size(), false);
 }
@@ -112,6 +116,7 @@ void Simulation::enter_phase(std::size_t number) {
   std::vector<double> share;
   if (p.plan.contacts()) share = node_share(p.model, preparation_.dt, p.plan.joint_steps);
   stepper_ = std::make_unique<Stepper>(p.model, p.plan, std::move(share), threads_);
+  choice_ = {threads_, ThreadChoice::worth_it(p.model.elements) ? most_threads_ : 1};
 }
 
 // Central differences begin with velocities half a step back: v(-1/2) = v(0) - dt/2 a(0).
@@ -185,10 +190,27 @@ void Simulation::advance_to(std::int64_t target) {
     if (!closed_phase() && state_.step == preparation_.closing_step) close();
     std::int64_t stop = std::min(target, state_.step + health_interval(model().nodes));
     if (!closed_phase()) stop = std::min(stop, preparation_.closing_step);
-    stepper_->advance(state_, stop - state_.step);
+    advance_with_threads_that_pay(stop);
     check_health();
   }
   if (!closed_phase() && state_.step == preparation_.closing_step) close();
+}
+
+void Simulation::use_threads(int threads) {
+  threads_ = available_threads(threads);
+  most_threads_ = 1;
+  choice_ = {threads_, 1};
+}
+
+// Or to where something is wrong.
+void Simulation::advance_with_threads_that_pay(std::int64_t stop) {
+  while (state_.step < stop && stepper_->healthy()) {
+    const std::int64_t from = state_.step, flown = stepper_->flown();
+    const double begin = clock_seconds();
+    stepper_->use_threads(choice_.threads(), state_);
+    stepper_->advance(state_, choice_.steps(stop - from));
+    choice_.note(state_.step - from, clock_seconds() - begin, stepper_->flown() > flown);
+  }
 }
 
 void Simulation::check_health() {

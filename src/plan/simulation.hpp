@@ -8,6 +8,7 @@
 #include "plan/ledger.hpp"
 #include "plan/memory.hpp"
 #include "plan/preparation.hpp"
+#include "plan/thread_choice.hpp"
 #include "plan/threading_watch.hpp"
 #include "scene/mouth.hpp"
 
@@ -15,7 +16,8 @@ namespace cinch {
 
 class Simulation {
  public:
-  /// Builds everything and stands at t = 0. `threads` 0: as many as pay for this scene (see choose_threads).
+  /// Builds everything and stands at t = 0. `threads` 0: as many as pay for this scene, by its size at first
+  /// (choose_threads) and then as is measured (ThreadChoice).
   /// Throws CaseError for an impossible scene, NumericalError when no static equilibrium is found.
   explicit Simulation(const Scene& scene, int threads = 0);
   /// From what prepare(scene) has given.
@@ -28,6 +30,8 @@ class Simulation {
   /// Advances to `step`; closing happens on the way. Throws NumericalError (node, ring or element, time,
   /// likely cause) and leaves the state of the step that went wrong.
   void advance_to(std::int64_t step);
+  /// From the next step on by so many threads, to the same bits.
+  void use_threads(int threads);
   /// After that: back to the last state that was found sound, within some thousand steps before.
   void step_back();
 
@@ -59,7 +63,7 @@ class Simulation {
   const Model& model() const { return phase().model; }
   const Stepper& stepper() const { return *stepper_; }
   Stepper& stepper() { return *stepper_; }
-  int threads() const { return threads_; }
+  int threads() const { return stepper_->threads(); }  ///< that step it now
   bool closed_phase() const { return phase_ + 1 == preparation_.phases.size(); }
 
  private:
@@ -73,6 +77,7 @@ class Simulation {
   void start();
   void find_surfaces();
   void enter_phase(std::size_t phase);
+  void advance_with_threads_that_pay(std::int64_t stop);
   void close();
   void check_health();
   void note_pace();
@@ -83,7 +88,8 @@ class Simulation {
 
   Scene scene_;
   Preparation preparation_;
-  int threads_;
+  int threads_;           ///< to begin with
+  int most_threads_ = 1;  ///< to try
   std::size_t phase_ = 0;
   State state_;
   State sound_;  ///< the last state that was looked at and kept; faults are searched for from there
@@ -93,6 +99,7 @@ class Simulation {
   };
   std::vector<Paced> history_;  ///< of the last looks at speeds
   std::unique_ptr<Stepper> stepper_;
+  ThreadChoice choice_{1, 1};
   Look look_;
   Ledger ledger_;
   std::vector<ResultModel::ProbeColumn> probe_columns_;
@@ -107,8 +114,9 @@ class Simulation {
   std::vector<Event> events_;  ///< those noted here; contacts are kept in the tallies
 };
 
-/// Threads that pay for a scene of this size: one for each 8000 elements or so, as below that two meetings a
-/// step cost more than they save (bench/bench_growth.cpp measures both sides on a given machine).
+/// Threads that pay for a scene of this size wherever they run: one for each 8000 elements or so, as below
+/// that meetings may cost more than they save (bench/bench_growth.cpp measures both sides on a given
+/// machine).
 int choose_threads(Index elements, int available);
 
 }  // namespace cinch

@@ -22,8 +22,25 @@ Stepper::Stepper(const Model& model, const StepPlan& plan, std::vector<double> n
       threads_(threads),
       node_share_(std::move(node_share)),
       contacts_(model, plan.margin, threads) {
-  if (threads_ == 1) pieces_.push_back(std::make_unique<Piece>(model, plan_, node_share_));
+  if (threads_ == 1) make_whole_piece();
   if (plan_.fly && plan_.flight_obstacle(model).empty()) flight_.emplace(model, plan_);
+}
+
+void Stepper::make_whole_piece() {
+  pieces_.clear();
+  pieces_.push_back(std::make_unique<Piece>(*model_, plan_, node_share_));
+}
+
+void Stepper::use_threads(int threads, State& state) {
+  if (threads == threads_) return;
+  if (dampers_.empty() && !(plan_.damped && plan_.ledger && gather_dampers())) dampers_ = {};
+  threads_ = threads;
+  contacts_.use_threads(threads);
+  pieces_.clear();  // of several threads they are made at the next advance
+  if (threads_ > 1) return;
+  make_whole_piece();
+  if (contacts_valid_) hand_out_contacts(state);
+  if (!dampers_.empty()) hand_out_dampers();
 }
 
 // Calls visit(p) for each piece p, from the thread that steps it.

@@ -31,6 +31,9 @@ class Stepper {
   /// healthy().
   void advance(State& state, std::int64_t steps);
 
+  /// Goes on with so many threads, to the same bits.
+  void use_threads(int threads, State& state);
+
   /// To be called when the state was set back to that of an earlier step.
   void start_over();
 
@@ -65,6 +68,7 @@ class Stepper {
 
   template <class Visit>
   void each_by_its_thread(Visit visit) const;
+  void make_whole_piece();
   void share_out(State& state);
   void make_pieces(const std::vector<std::vector<Index>>& shares);
   int sweep_depth(const std::vector<std::vector<Index>>& shares) const;

@@ -67,7 +67,7 @@ Summary Simulation::summary() {
   s.commit = cinch::commit;
   s.compiler = cinch::compiler;
   s.isa = kernels().isa;
-  s.threads = threads_;
+  s.threads = threads();
   s.steps = state_.step;
   s.time_step = preparation_.dt;
   s.joint_steps = preparation_.phases.back().plan.joint_steps;
