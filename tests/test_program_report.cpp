@@ -1,4 +1,6 @@
 // `cinch report` and `cinch check` on the paper's own cases, which most of the page is written for.
+#include <sys/stat.h>
+
 #include "support/program.hpp"
 
 namespace {
@@ -35,6 +37,34 @@ TEST_F(Reported, ClosingTimesSideBySide) {
   const std::string page = text_of(path("c0.02/report.html"));
   EXPECT_TRUE(has(page, "Closing times")) << out();
   EXPECT_TRUE(has(page, "0.42 s") && has(page, "0.44 s")) << "0.4 s after each";
+}
+
+// Its own pages are replaced, nothing else.
+TEST_F(Reported, NoOtherFileIsReplaced) {
+  ASSERT_EQ(run({"run", "tiny.toml", "--quiet", "--out", "r"}), 0) << err();
+  ASSERT_EQ(run({"report", "r", "--html", "page.html", "--table", "table.md"}), 0) << err();
+  EXPECT_EQ(run({"report", "r", "--html", "page.html", "--table", "table.md"}), 0) << err();
+  const auto refused = [&](const Words& words, const std::string& file) {
+    Words all{"report", "r"};
+    all.insert(all.end(), words.begin(), words.end());
+    EXPECT_EQ(run(all), 2) << file;
+    EXPECT_TRUE(err().starts_with("error: " + file + " is not replaced: ")) << err();
+  };
+  refused({"--html", "tiny.toml"}, "tiny.toml");
+  refused({"--table", "tiny.toml"}, "tiny.toml");
+  refused({"--html", "table.md"}, "table.md");
+  EXPECT_EQ(text_of(path("tiny.toml")), tiny_case);
+  fs::create_symlink("/dev/null", path("null"));
+  mkfifo(path("pipe").c_str(), 0600);
+  refused({"--html", "null"}, "null");
+  refused({"--table", "pipe"}, "pipe");
+  refused({"--html", "r"}, "r");
+  EXPECT_TRUE(fs::is_symlink(path("null")) && fs::is_fifo(path("pipe")));
+  write("r/report.html", "mine");
+  refused({}, "r/report.html");
+  EXPECT_EQ(text_of(path("r/report.html")), "mine");
+  EXPECT_EQ(run({"report", "r", "--html", "new", "--table", "./new"}), 2);
+  EXPECT_FALSE(fs::exists(path("new")));
 }
 
 // The first tenths of a second; rings hang on the upper edge, masses on the thread through them.

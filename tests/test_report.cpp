@@ -12,6 +12,7 @@
 
 #include "base/error.hpp"
 #include "output/recorder.hpp"
+#include "output/report_file.hpp"
 #include "output/text_file.hpp"
 #include "report/assets.hpp"
 #include "report/charts.hpp"
@@ -534,6 +535,27 @@ TEST(Report, The_page_stands_on_its_own) {
   EXPECT_EQ(page.find("{{"), std::string::npos);
   EXPECT_NE(page.find("A &lt;square&gt;"), std::string::npos);
   EXPECT_NE(page.find("node 3 ran away &lt;/script&gt;"), std::string::npos);
+}
+
+TEST(Report, Only_pages_and_tables_of_its_own_are_replaced) {
+  const Scratch scratch;
+  record_square(scratch.path, true);
+  std::vector<Result> results;
+  results.emplace_back(scratch.path);
+  const fs::path page = scratch.path / "page.html", table = scratch.path / "table.md",
+                 link = scratch.path / "link";
+  write_report(results, page);
+  write_paper_table(results, table);
+  EXPECT_TRUE(is_report_page(page) && is_report_table(table));
+  EXPECT_FALSE(is_report_page(table) || is_report_table(page));
+  fs::create_symlink(page, link);
+  EXPECT_FALSE(is_report_page(link));
+  replace_text_file(table, read_text_file(table) + "Notes of my own.\n");
+  EXPECT_FALSE(is_report_table(table));
+  EXPECT_THROW(require_own(table, is_report_table), Error);
+  EXPECT_THROW(require_own(scratch.path, is_report_page), Error);
+  EXPECT_NO_THROW(require_own(page, is_report_page));
+  EXPECT_NO_THROW(require_own(scratch.path / "fresh.html", is_report_page));
 }
 
 TEST(Report, No_text_of_a_case_ends_a_script) {

@@ -20,6 +20,7 @@ inline constexpr char kRingsXdmfFile[] = "rings.xdmf";
 inline constexpr char kBallsXdmfFile[] = "balls.xdmf";
 inline constexpr char kSummaryFile[] = "summary.json";
 inline constexpr char kCheckpointFile[] = "checkpoint.h5";
+inline constexpr char kReportFile[] = "report.html";
 
 inline constexpr char kVtk[] = "/VTKHDF";
 inline constexpr char kPoints[] = "/VTKHDF/Points";

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <map>
 
+#include "output/report_file.hpp"
 #include "report/assets.hpp"
 #include "report/facts.hpp"
 #include "report/html.hpp"
@@ -238,11 +239,10 @@ string reproduce(const std::vector<Digest>& results) {
 }
 
 string whole(const string& title, const string& body, const string& plots_json, const string& view_json) {
-  string out =
-      "<!doctype html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
-      "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n"
-      "<link rel=\"icon\" href=\"data:,\">\n<title>" +
-      escape_markup(title) + "</title>\n<style>\n";
+  string out = "<!doctype html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n" + string(kPageMark) +
+               "\n<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n"
+               "<link rel=\"icon\" href=\"data:,\">\n<title>" +
+               escape_markup(title) + "</title>\n<style>\n";
   out += assets::page_css();
   out += "</style>\n</head>\n<body>\n<main>\n" + body + "</main>\n";
   out += "<script type=\"application/json\" id=\"plots\">" + html::script_safe(plots_json) + "</script>\n";

@@ -1,5 +1,6 @@
 // The table "paper against Cinch" as Markdown.
 #include "base/error.hpp"
+#include "output/report_file.hpp"
 #include "output/text_file.hpp"
 #include "report/html.hpp"
 #include "report/report.hpp"
@@ -31,8 +32,7 @@ void write_paper_table(const std::vector<Result>& results, const std::filesystem
                        const Sensitivity& open_inputs) {
   if (results.empty()) throw Error(ExitCode::usage, "report: no result given");
   std::string text =
-      "| " + results.front().model().case_name +
-      " | place | paper | Cinch | verdict | sensitivity and notes |\n|---|---|---|---|---|---|\n";
+      "| " + results.front().model().case_name + " " + kTableMark + "\n|---|---|---|---|---|---|\n";
   for (const VerdictRow& row : compare_with_paper(digest_all(results), open_inputs)) text += row_text(row);
   replace_text_file(markdown_file, text + "\n");
 }
