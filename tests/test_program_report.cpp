@@ -67,6 +67,22 @@ TEST_F(Reported, NoOtherFileIsReplaced) {
   EXPECT_FALSE(fs::exists(path("new")));
 }
 
+TEST_F(Reported, ANewRunTakesTheOldReportAway) {
+  const Words again{"run", "tiny.toml", "--quiet", "--out", "r", "--overwrite"};
+  const auto page = [&] { return fs::exists(path("r/report.html")); };
+  ASSERT_EQ(run(again), 0) << err();
+  ASSERT_EQ(run({"report", "r"}), 0) << err();
+  ASSERT_TRUE(page());
+  ASSERT_EQ(run(again), 0) << err();
+  EXPECT_FALSE(page());
+  ASSERT_EQ(run({"report", "r"}), 0) << err();
+  ASSERT_EQ(run({"run", "--restart", "r", "--quiet", "--set", "time.end_s=0.0011"}), 0) << err();
+  EXPECT_FALSE(page());
+  write("r/report.html", "mine");
+  ASSERT_EQ(run(again), 0) << err();
+  EXPECT_TRUE(page()) << "not ours to remove";
+}
+
 // The first tenths of a second; rings hang on the upper edge, masses on the thread through them.
 TEST_F(Reported, HeightsOfAnEdgeThatCloses) {
   simulate("edge_closure", "e",

@@ -10,6 +10,7 @@
 #include "output/descriptor.hpp"
 #include "output/hdf5_file.hpp"
 #include "output/model_io.hpp"
+#include "output/report_file.hpp"
 #include "output/result_layout.hpp"
 #include "output/summary_json.hpp"
 #include "output/text_file.hpp"
@@ -131,13 +132,22 @@ struct RingSeries {
   Reals center, normal, force;
 };
 
+void remove_file(const std::filesystem::path& file) {
+  std::error_code error;
+  std::filesystem::remove(file, error);
+  if (error) throw FileError(file.string() + ": cannot remove it: " + error.message());
+}
+
+// It tells of what was there before. Any other file of that name is not ours.
+void remove_old_report(const std::filesystem::path& directory) {
+  if (is_report_page(directory / kReportFile)) remove_file(directory / kReportFile);
+}
+
 void remove_old_run(const std::filesystem::path& directory) {
   for (const char* name :
-       {kResultFile, kNetXdmfFile, kRingsXdmfFile, kBallsXdmfFile, kSummaryFile, kCheckpointFile}) {
-    std::error_code error;
-    std::filesystem::remove(directory / name, error);
-    if (error) throw FileError((directory / name).string() + ": cannot remove it: " + error.message());
-  }
+       {kResultFile, kNetXdmfFile, kRingsXdmfFile, kBallsXdmfFile, kSummaryFile, kCheckpointFile})
+    remove_file(directory / name);
+  remove_old_report(directory);
 }
 
 /// `draft`: beside the place of the result, which stays for the time being.
@@ -257,6 +267,7 @@ void Recorder::Impl::take_place() {
   const std::filesystem::path draft = file.path(), place = directory / kResultFile;
   std::error_code error;
   std::filesystem::remove(directory / kSummaryFile, error);
+  remove_old_report(directory);
   std::filesystem::rename(draft, place, error);
   if (error) throw FileError(place.string() + ": cannot replace it: " + error.message());
   file.set_path(place);
