@@ -83,6 +83,12 @@ TEST_F(Reported, ANewRunTakesTheOldReportAway) {
   EXPECT_TRUE(page()) << "not ours to remove";
 }
 
+TEST_F(Reported, HelpTellsOfSeveralResultsAndWhereThePageGoes) {
+  ASSERT_EQ(run({"report", "--help"}), 0);
+  EXPECT_TRUE(has(out(), "RESULT...") && !has(out(), "(1x)")) << out();
+  EXPECT_TRUE(has(out(), "beside the first RESULT")) << out();
+}
+
 // The first tenths of a second; rings hang on the upper edge, masses on the thread through them.
 TEST_F(Reported, HeightsOfAnEdgeThatCloses) {
   simulate("edge_closure", "e",

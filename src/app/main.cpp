@@ -73,14 +73,14 @@ Commands define(CLI::App& app, Options& options) {
       ->check(CLI::Range(1, 1000))
       ->needs(error);
   c.info->add_option("RESULT", options.results, "folder or .vtkhdf file")->required()->expected(1);
-  c.report->add_option("RESULT", options.report.results, "folders or .vtkhdf files")
-      ->required()
-      ->expected(1, 1000);
+  c.report
+      ->add_option("RESULT", options.report.results, "folders or .vtkhdf files, the one to begin with first")
+      ->required();
   c.report->add_option("--html", options.report.html,
-                       "page to write (default: report.html beside the result)");
+                       "page to write (default: report.html beside the first RESULT); files that are none of "
+                       "cinch report's are never replaced");
   c.report->add_option("--table", options.report.table, "Markdown file for the table of the paper's numbers");
-  c.report->add_option("--open", options.report.open, "runs with inputs changed that the paper leaves open")
-      ->expected(1, 1000);
+  c.report->add_option("--open", options.report.open, "runs with inputs changed that the paper leaves open");
   c.compare->add_option("RESULT", options.results, "two folders or .vtkhdf files")->required()->expected(2);
   return c;
 }
