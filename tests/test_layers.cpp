@@ -29,7 +29,7 @@ const std::map<std::string, std::set<std::string>>& allowed() {
       {"plan", {"base", "kernels", "scene", "store", "statics", "plan"}},
       {"study", {"base", "scene", "plan", "store", "kernels", "study"}},
       {"output", {"base", "output"}},
-      {"report", {"base", "scene", "output", "report"}},
+      {"report", {"base", "scene", "input", "output", "report"}},
       {"app",
        {"base", "kernels", "scene", "input", "store", "statics", "plan", "study", "output", "report", "app"}},
   };

@@ -30,13 +30,33 @@ TEST_F(Reported, OnePageAndOneTableForSeveralResults) {
 }
 
 TEST_F(Reported, ClosingTimesSideBySide) {
-  for (const char* time : {"0.02", "0.04"})
-    simulate("capture", std::string("c") + time,
-             {std::string("closing.time_s=") + time, "time.end_s=0.46", "output.frame_interval_s=0.02"});
-  ASSERT_EQ(run({"report", "c0.02", "c0.04", "--open", "c0.04"}), 0) << err();
-  const std::string page = text_of(path("c0.02/report.html"));
+  std::vector<std::string> quick{"case.method=sliding", "time.step_s=auto", "output.frame_interval_s=0.05",
+                                 "output.probe_interval_s=0.01"};
+  for (const char* thread : {"c_top", "c_right", "c_bottom", "c_left"})
+    quick.push_back(std::string("thread.") + thread + ".elements=12");
+  for (const auto& [time, end] : {std::pair{"1.2", "1.65"}, {"1.3", "1.5"}}) {
+    std::vector<std::string> sets = quick;
+    sets.insert(sets.end(), {std::string("closing.time_s=") + time, std::string("time.end_s=") + end});
+    simulate("capture", std::string("c") + time, sets);
+  }
+  ASSERT_EQ(run({"report", "c1.2", "c1.3", "--open", "c1.3"}), 0) << err();
+  const std::string page = text_of(path("c1.2/report.html"));
   EXPECT_TRUE(has(page, "Closing times")) << out();
-  EXPECT_TRUE(has(page, "0.42 s") && has(page, "0.44 s")) << "0.4 s after each";
+  EXPECT_TRUE(has(page, "closing at 1.2 s, t = 1.6 s")) << "0.4 s after it";
+  EXPECT_TRUE(has(page, "No frame at 1.7 s"));
+}
+
+TEST_F(Reported, AnotherSceneIsNotJudgedByThePapersNumbers) {
+  simulate("ring_pull", "r", {"time.end_s=0.01", "thread.main.start.mass_kg=5"});
+  ASSERT_EQ(run({"report", "r", "--table", "table.md", "--open", "r"}), 0) << err();
+  EXPECT_TRUE(err().starts_with("warning: --open r is left out: not the paper's scene: ")) << err();
+  const std::string page = text_of(path("r/report.html"));
+  EXPECT_TRUE(has(page, "Not the paper's scene: ball's mass 5 kg, the paper's 0.1 kg (Sec. 5.1)."));
+  EXPECT_FALSE(has(page, "class=\"badge") || has(page, "... in the paper")) << "neither verdict nor run time";
+  EXPECT_TRUE(has(out(), "\nnot the paper's scene: ball's mass 5 kg, the paper's 0.1 kg (Sec. 5.1)\n"))
+      << out();
+  EXPECT_FALSE(has(out(), "reproduced")) << out();
+  EXPECT_TRUE(has(text_of(path("table.md")), "| ring_pull: not the paper's scene: ball's mass"));
 }
 
 // Its own pages are replaced, nothing else.

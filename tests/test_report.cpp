@@ -269,27 +269,6 @@ TEST(Report, Peaks_of_every_step_are_preferred_to_samples) {
   EXPECT_FALSE(measure::peak_ring_force(d).value);
 }
 
-TEST(Report, Cases_are_known_by_what_they_hold) {
-  ResultModel model;
-  model.case_name = "mine";
-  model.parts = {{"net", "main", false}};
-  model.rings.resize(16);
-  model.balls.resize(1);
-  model.node_mass.resize(100);
-  EXPECT_EQ(recognise(model), PaperCase::none) << "it never closes";
-  model.closing_time = 1;
-  EXPECT_EQ(recognise(model), PaperCase::capture);
-  model.rings.resize(4);
-  model.balls.clear();
-  model.masses.resize(2);
-  EXPECT_EQ(recognise(model), PaperCase::edge_closure);
-  model.rings.resize(1);
-  model.masses.resize(1);
-  EXPECT_EQ(recognise(model), PaperCase::none);
-  model.parts = {{"thread", "main", false}};
-  EXPECT_EQ(recognise(model), PaperCase::ring_pull);
-}
-
 TEST(Report, A_capture_without_its_mechanisms_or_rings_has_gaps_that_are_named) {
   Digest d = capture();
   d.model.masses.clear();

@@ -40,6 +40,8 @@ int report(const ReportArguments& arguments) {
   std::vector<Digest> variants;
   for (const auto& path : arguments.open) {
     variants.push_back(digest(Result(path)));
+    const std::string& why = variants.back().unjudged;
+    if (!why.empty()) std::cerr << "warning: --open " << path.string() << " is left out: " << why << "\n";
   }
   const Sensitivity open_inputs = range_over(variants);
   write_report(results, html, open_inputs);

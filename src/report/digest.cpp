@@ -5,8 +5,9 @@
 #include <cstdio>
 #include <filesystem>
 #include <map>
-#include <regex>
 
+#include "base/error.hpp"
+#include "input/case_reader.hpp"
 #include "scene/mouth.hpp"
 
 namespace cinch {
@@ -132,39 +133,20 @@ void read_probes(const Result& result, Digest& d) {
   take_scalar(result, "mouth_spread", d.mouth_spread);
 }
 
-// Of the resolved case: [gravity] acceleration_m_s2 = [x, y, z].
-std::optional<Vec3> gravity_in(const std::string& toml) {
-  static const std::regex line(
-      R"(acceleration_m_s2\s*=\s*\[\s*([-+.\deE]+)\s*,\s*([-+.\deE]+)\s*,\s*([-+.\deE]+)\s*,?\s*\])");
-  const auto place = toml.find("acceleration_m_s2");
-  if (place == std::string::npos) return std::nullopt;
-  const std::string rest = toml.substr(place, 200);
-  std::smatch match;
-  if (!std::regex_search(rest, match, line)) return std::nullopt;
-  const Vec3 g(std::stod(match[1]), std::stod(match[2]), std::stod(match[3]));
-  return g.norm() > 0 ? std::optional<Vec3>(g) : std::nullopt;
-}
-
-bool has_part(const ResultModel& model, const std::string& kind, bool closing) {
-  return std::any_of(model.parts.begin(), model.parts.end(),
-                     [&](const auto& part) { return part.kind == kind && part.closing == closing; });
+// The resolved case is a case file; another version may have written what this one does not read.
+void read_resolved_case(Digest& d) {
+  try {
+    const Scene scene = parse_case(d.model.case_toml, d.model.case_name + ".toml");
+    d.gravity = scene.gravity && scene.gravity->norm() > 0 ? scene.gravity : std::nullopt;
+    const Recognised scene_is = recognise(scene);
+    d.paper_case = scene_is.as;
+    if (!scene_is.difference.empty()) d.unjudged = "not the paper's scene: " + scene_is.difference;
+  } catch (const CaseError&) {
+    d.unjudged = "not compared with the paper: this version does not read the case in the result";
+  }
 }
 
 }  // namespace
-
-PaperCase recognise(const ResultModel& model) {
-  if (starts_with(model.case_name, "ring_pull")) return PaperCase::ring_pull;
-  if (starts_with(model.case_name, "edge_closure")) return PaperCase::edge_closure;
-  if (starts_with(model.case_name, "capture")) return PaperCase::capture;
-  if (starts_with(model.case_name, "large")) return PaperCase::none;
-  const bool net = has_part(model, "net", false), small = model.node_mass.size() < 5000;
-  if (!net && model.rings.size() == 1 && model.masses.size() == 1) return PaperCase::ring_pull;
-  if (net && model.rings.size() == 4 && model.balls.empty() && model.masses.size() == 2 && small)
-    return PaperCase::edge_closure;
-  if (net && model.rings.size() == 16 && model.balls.size() == 1 && model.closing_time && small)
-    return PaperCase::capture;
-  return PaperCase::none;
-}
 
 int Digest::mass(const std::string& name) const {
   for (std::size_t m = 0; m < model.masses.size(); ++m)
@@ -226,10 +208,9 @@ Digest digest(const Result& result) {
   std::erase_if(d.model.masses, [](const auto& mass) { return starts_with(mass.name, "ring."); });
   d.summary = result.summary();
   d.file = std::filesystem::absolute(result.path()).string();
-  d.paper_case = recognise(d.model);
   d.frame_times = result.frame_times();
   d.energies = result.energies();
-  d.gravity = gravity_in(d.model.case_toml);
+  read_resolved_case(d);
   read_frames(result, d);
   read_probes(result, d);
   return d;

@@ -5,12 +5,10 @@
 #include <vector>
 
 #include "output/result_reader.hpp"
+#include "report/paper_scene.hpp"
 #include "report/series.hpp"
 
 namespace cinch {
-
-/// The paper's case a result belongs to, by its name, else by what is in it.
-enum class PaperCase { ring_pull, edge_closure, capture, none };
 
 /// Series come from probes where the run has them, else from its frames.
 struct Digest {
@@ -18,6 +16,7 @@ struct Digest {
   std::optional<Summary> summary;
   std::string file;  ///< of the result
   PaperCase paper_case = PaperCase::none;
+  std::string unjudged;                                    ///< why a scene like the paper's is not judged
   std::vector<double> frame_times;                         ///< s
   std::vector<Energies> energies;                          ///< J, of the frames
   std::vector<VectorSeries> ring_position, ring_force;     ///< m, N: one for each ring
@@ -46,7 +45,5 @@ Digest digest(const Result& result);
 
 /// All results of a report; those that would have the same label get the name of their folder.
 std::vector<Digest> digest_all(const std::vector<Result>& results);
-
-PaperCase recognise(const ResultModel& model);
 
 }  // namespace cinch

@@ -1,6 +1,7 @@
 #include "report/page.hpp"
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <map>
 
@@ -132,7 +133,7 @@ string facts(const std::vector<Digest>& results) {
 }
 
 string paper_table(const std::vector<VerdictRow>& rows, bool several) {
-  if (rows.empty()) return tag("p", "The paper gives no numbers for this case.", "soft");
+  if (rows.empty()) return tag("p", "The paper gives no numbers for this scene.", "soft");
   string head = tag("th", "Quantity") + tag("th", "Paper's") + (several ? tag("th", "Result") : "");
   head += tag("th", "Paper", "n") + tag("th", "Cinch", "n") + tag("th", "Difference", "n") +
           tag("th", "Verdict") + tag("th", "Sensitivity and notes");
@@ -142,6 +143,17 @@ string paper_table(const std::vector<VerdictRow>& rows, bool several) {
                       i > 0 && rows[i].paper == rows[i - 1].paper && rows[i].note == rows[i - 1].note);
   return "<div class=\"scroll\">" +
          tag("table", tag("thead", tag("tr", head)) + tag("tbody", body), "paper") + "</div>\n";
+}
+
+string unjudged(const std::vector<Digest>& results) {
+  string out;
+  for (const Digest& d : results) {
+    if (d.unjudged.empty()) continue;
+    string text = d.unjudged;
+    text.front() = static_cast<char>(std::toupper(static_cast<unsigned char>(text.front())));
+    out += tag("p", escape_markup((results.size() > 1 ? d.label() + ": " + d.unjudged : text) + "."), "gap");
+  }
+  return out;
 }
 
 string plots(const std::vector<Plot>& list, std::size_t first) {

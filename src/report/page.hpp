@@ -15,6 +15,8 @@ std::string lead(const std::vector<Digest>& results, const std::vector<VerdictRo
 std::string facts(const std::vector<Digest>& results);
 /// Table "paper against Cinch"; a sentence where the paper gives nothing for the case.
 std::string paper_table(const std::vector<VerdictRow>& rows, bool several);
+/// A line for each result that is not compared with the paper though it is much like one of its scenes.
+std::string unjudged(const std::vector<Digest>& results);
 /// Figures for plots; their data stand in the page's script, numbered from `first`.
 std::string plots(const std::vector<Plot>& list, std::size_t first);
 std::string stages(const Summary& summary);

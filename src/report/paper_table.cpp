@@ -33,7 +33,10 @@ void write_paper_table(const std::vector<Result>& results, const std::filesystem
   if (results.empty()) throw Error(ExitCode::usage, "report: no result given");
   std::string text =
       "| " + results.front().model().case_name + " " + kTableMark + "\n|---|---|---|---|---|---|\n";
-  for (const VerdictRow& row : compare_with_paper(digest_all(results), open_inputs)) text += row_text(row);
+  const std::vector<Digest> digests = digest_all(results);
+  for (const VerdictRow& row : compare_with_paper(digests, open_inputs)) text += row_text(row);
+  for (const Digest& d : digests)
+    if (!d.unjudged.empty()) text += "|" + cell(d.label() + ": " + d.unjudged) + " | | | | |\n";
   replace_text_file(markdown_file, text + "\n");
 }
 

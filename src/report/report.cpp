@@ -225,13 +225,13 @@ void write_report(const std::vector<Result>& results, const std::filesystem::pat
   if (results.empty()) throw Error(ExitCode::usage, "report: no result given");
   const std::vector<Digest> digests = digest_all(results);
   const auto rows = compare_with_paper(digests, open_inputs);
-  const auto figures = figure_plots(digests), energy = energy_plots(digests.front());
   const Digest& d = digests.front();
+  const auto figures = figure_plots(digests), energy = energy_plots(d);
 
   string body = page::lead(digests, rows);
   body += "<section><h2>Verdict</h2>\n" + page::facts(digests) + "</section>\n";
   body += "<section><h2>Paper against Cinch</h2>\n" + page::paper_table(rows, digests.size() > 1) +
-          "</section>\n";
+          page::unjudged(digests) + "</section>\n";
   if (!figures.empty()) body += "<section><h2>Figures</h2>\n" + page::plots(figures, 0) + "</section>\n";
   body += picture_section(results.front(), d);
   if (several_closing_times(digests)) body += closing_times_section(results, digests);
@@ -264,6 +264,7 @@ void print_verdict(const Result& result, std::ostream& out) {
   }
   const auto rows = compare_with_paper(digests);
   if (!rows.empty()) out << "\npaper against Cinch\n";
+  if (!digests.front().unjudged.empty()) out << "\n" << digests.front().unjudged << "\n";
   for (const VerdictRow& row : rows) {
     const PaperNumber& p = *row.paper;
     const string paper = p.paper.empty() ? html::plain(p.value, p.unit) : string(p.paper);
