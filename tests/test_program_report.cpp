@@ -44,6 +44,8 @@ TEST_F(Reported, ClosingTimesSideBySide) {
   EXPECT_TRUE(has(page, "Closing times")) << out();
   EXPECT_TRUE(has(page, "closing at 1.2 s, t = 1.6 s")) << "0.4 s after it";
   EXPECT_TRUE(has(page, "No frame at 1.7 s"));
+  const std::string row = page.substr(page.find("<td class=\"n\">1.3\u202fs</td>"));
+  EXPECT_TRUE(has(row.substr(0, row.find("</tr>")), "<td>–</td>")) << "not yet decided whether it encloses";
 }
 
 TEST_F(Reported, AnotherSceneIsNotJudgedByThePapersNumbers) {
@@ -57,6 +59,13 @@ TEST_F(Reported, AnotherSceneIsNotJudgedByThePapersNumbers) {
       << out();
   EXPECT_FALSE(has(out(), "reproduced")) << out();
   EXPECT_TRUE(has(text_of(path("table.md")), "| ring_pull: not the paper's scene: ball's mass"));
+}
+
+TEST_F(Reported, AStoppedRunIsNotJudgedByWhatComesLater) {
+  simulate("ring_pull", "r", {"time.end_s=0.01"});
+  ASSERT_EQ(run({"report", "r"}), 0) << err();
+  EXPECT_FALSE(has(out(), "reproduced") || has(out(), "converge")) << out();
+  EXPECT_TRUE(has(out(), "not in these results   Ball passes the ring")) << out();
 }
 
 // Its own pages are replaced, nothing else.

@@ -269,6 +269,56 @@ TEST(Report, Peaks_of_every_step_are_preferred_to_samples) {
   EXPECT_FALSE(measure::peak_ring_force(d).value);
 }
 
+TEST(Report, A_run_that_ends_early_decides_nothing_that_comes_later) {
+  Digest pull = good_pull(), caught = capture();
+  pull.frame_times = {0, 0.2};
+  for (const char* key : {"passes", "drags", "force_200", "ball_y", "ring_y"})
+    EXPECT_EQ(verdict_on({pull}, std::string("ring_pull.") + key), Verdict::missing) << key;
+  const auto rows = compare_with_paper({pull});
+  EXPECT_EQ(rows.front().note, "the run ends at 0.2 s, before 1 s");
+  caught.frame_times = {0, 1, 1.78};
+  caught.summary->status = "interrupted";
+  caught.summary->events.resize(2);
+  for (const char* key : {"enclosed", "closes_after", "ring1_peak"})
+    EXPECT_EQ(verdict_on({caught}, std::string("capture.") + key), Verdict::missing) << key;
+  for (const char* key : {"first_touch", "jump_x", "a1_falls", "mirror", "ring1_time"})
+    EXPECT_EQ(verdict_on({caught}, std::string("capture.") + key), Verdict::reproduced) << key;
+  caught.frame_times = {0, 1, 1.52};
+  for (const char* key : {"a1_falls", "a1_y_steady", "mirror"})
+    EXPECT_EQ(verdict_on({caught}, std::string("capture.") + key), Verdict::missing) << key;
+}
+
+TEST(Report, Results_that_end_early_do_not_spoil_a_comparison_of_several) {
+  const Digest middle = good_pull(), coarse = ring_pull(100, 2.5, {0, 0.60, -0.30}, 0.310);
+  Digest early = ring_pull(300, 0, {0, -0.3, -0.5}, 0);
+  early.frame_times = {0, 0.1};
+  EXPECT_EQ(verdict_on({middle, early, coarse}, "ring_pull.coincide"), Verdict::missing);
+  EXPECT_EQ(verdict_on({middle, early, coarse}, "ring_pull.fewer_larger"), Verdict::reproduced);
+  EXPECT_EQ(verdict_on({middle, early, coarse}, "ring_pull.force_falls"), Verdict::reproduced);
+}
+
+TEST(Report, A_longer_run_is_judged_where_the_papers_ends) {
+  Digest pull = good_pull(), caught = capture();
+  pull.frame_times = {0, 1, 2};
+  for (VectorSeries* path : {&pull.mass_position[0], &pull.ring_position[0]})
+    path->t.push_back(2), path->v.emplace_back(0, -5, 0);
+  pull.summary->ring_records[0] = {"r1", 0.1, 0.5, 99, 1.7};
+  pull.ring_force[0].v[40] = Vec3(0, 1.4, 0);
+  for (const char* key : {"passes", "drags", "force_200"})
+    EXPECT_EQ(verdict_on({pull}, std::string("ring_pull.") + key), Verdict::reproduced) << key;
+  EXPECT_EQ(measure::peak_ring_force(pull).note, "from probe only: the true peak may be higher");
+  caught.frame_times.back() = 5;
+  caught.summary->events.back().time = 4;
+  EXPECT_EQ(verdict_on({caught}, "capture.enclosed"), Verdict::not_reproduced);
+}
+
+TEST(Report, Only_the_papers_closing_time_is_held_against_its_figures) {
+  EXPECT_EQ(verdict_on({capture(1.2)}, "capture.enclosed"), Verdict::reproduced);
+  for (const char* key : {"first_touch", "closes_after", "jump_x", "a1_turns", "ring1_force", "ring1_peak"})
+    EXPECT_EQ(verdict_on({capture(1.2)}, std::string("capture.") + key), Verdict::missing) << key;
+  EXPECT_EQ(verdict_on({capture(1.2), capture(1.5)}, "capture.jump_x"), Verdict::reproduced);
+}
+
 TEST(Report, A_capture_without_its_mechanisms_or_rings_has_gaps_that_are_named) {
   Digest d = capture();
   d.model.masses.clear();
@@ -277,6 +327,7 @@ TEST(Report, A_capture_without_its_mechanisms_or_rings_has_gaps_that_are_named) 
   EXPECT_FALSE(measure::split_masses(d));
   EXPECT_EQ(verdict_on({d}, "capture.jump_x"), Verdict::missing);
   d.model.rings.clear();
+  EXPECT_EQ(verdict_on({d}, "capture.ring1_peak"), Verdict::missing);
   std::string notes;
   for (const Plot& plot : figure_plots({d})) notes += plot.note;
   EXPECT_NE(notes.find("The result has no ring 2."), std::string::npos) << notes;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <limits>
 
 namespace cinch::measure {
@@ -9,14 +10,8 @@ namespace {
 
 std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
-Measured missing(const std::string& what) { return {std::nullopt, what}; }
-
-Measured past_the_end(const Digest& d, double time) {
-  return missing("the run ends at " + std::to_string(d.end_time()).substr(0, 5) + " s, before " +
-                 std::to_string(time).substr(0, 4) + " s");
-}
-
-bool reaches(const Digest& d, double time) { return d.end_time() >= time - 1e-6; }
+constexpr double kPullEnd = 1;     // s: end of the paper's run, Sec. 5.1
+constexpr double kInstant = 1e-6;  // s: times this near to each other are the same
 
 const Digest* with_elements(const Results& results, int elements) {
   for (const Digest* d : results)
@@ -32,32 +27,51 @@ Results by_elements(Results results) {
 
 }  // namespace
 
+Measured missing(const std::string& what) { return {std::nullopt, what}; }
+
+Measured past_the_end(const Digest& d, double time) {
+  char text[80];
+  std::snprintf(text, sizeof text, "the run ends at %.4g s, before %.4g s", d.end_time(), time);
+  return missing(text);
+}
+
+bool reaches(const Digest& d, double time) { return d.end_time() >= time - kInstant; }
+
+std::optional<Peak> peak_force(const Digest& d, int ring, double until) {
+  const RingRecord* record = d.record(ring);
+  if (record && record->peak_time <= until + kInstant) return Peak{record->peak_force, record->peak_time, ""};
+  if (ring < 0 || d.ring_force.size() <= at(ring) || d.ring_force[at(ring)].empty()) return std::nullopt;
+  const VectorSeries& force = d.ring_force[at(ring)];
+  Peak peak{0, -1, force.source};
+  for (std::size_t i = 0; i < force.t.size() && force.t[i] <= until + kInstant; ++i)
+    if (const double size = force.v[i].norm(); size > peak.force) peak.force = size, peak.time = force.t[i];
+  return peak;
+}
+
 Measured ball_ahead_of_ring(const Digest& d) {
   if (d.mass_position.empty() || d.ring_position.empty()) return missing("no ball or no ring in this result");
-  return {d.mass_position[0].component(1).at(d.end_time()) - d.ring_position[0].component(1).at(d.end_time()),
-          ""};
+  if (!reaches(d, kPullEnd)) return past_the_end(d, kPullEnd);
+  return {d.mass_position[0].component(1).at(kPullEnd) - d.ring_position[0].component(1).at(kPullEnd), ""};
 }
 
 Measured ring_end_speed(const Digest& d) {
   if (d.ring_position.empty() || d.frame_times.size() < 2) return missing("no ring or a single frame");
-  const double end = d.end_time(), span = 0.1 * end;
+  if (!reaches(d, kPullEnd)) return past_the_end(d, kPullEnd);
+  constexpr double span = 0.1 * kPullEnd;
   const Series y = d.ring_position[0].component(1);
-  return {(y.at(end) - y.at(end - span)) / span, ""};
+  return {(y.at(kPullEnd) - y.at(kPullEnd - span)) / span, ""};
 }
 
 Measured peak_ring_force(const Digest& d) {
-  double peak = 0;
-  bool every_step = false;
-  for (int r = 0; r < static_cast<int>(d.model.rings.size()); ++r)
-    if (const RingRecord* record = d.record(r)) {
-      peak = std::max(peak, record->peak_force);
-      every_step = true;
-    }
-  if (every_step) return {peak, ""};
-  for (const VectorSeries& force : d.ring_force)
-    for (const Vec3& f : force.v) peak = std::max(peak, f.norm());
-  if (d.ring_force.empty() || d.ring_force[0].empty()) return missing("no ring force recorded");
-  return {peak, "from " + d.ring_force[0].source + " only: the true peak may be higher"};
+  if (!reaches(d, kPullEnd)) return past_the_end(d, kPullEnd);
+  Measured greatest = missing("no ring force recorded");
+  for (int r = 0; r < static_cast<int>(d.model.rings.size()); ++r) {
+    const auto peak = peak_force(d, r, kPullEnd);
+    if (!peak || (greatest.value && peak->force <= *greatest.value)) continue;
+    greatest = {peak->force, ""};
+    if (!peak->source.empty()) greatest.note = "from " + peak->source + " only: the true peak may be higher";
+  }
+  return greatest;
 }
 
 Measured greatest_force_rise(const Results& results) {
@@ -76,18 +90,23 @@ Measured curves_apart(const Results& results, int fewer, int more) {
   if (!a || !b)
     return missing("needs results of " + std::to_string(fewer) + " and " + std::to_string(more) +
                    " elements");
+  for (const Digest* d : {a, b})
+    if (!reaches(*d, kPullEnd)) return past_the_end(*d, kPullEnd);
   const Series ya = a->ring_position.at(0).component(1), yb = b->ring_position.at(0).component(1);
   double apart = 0;
   for (const double t : a->frame_times)
-    if (t <= b->end_time()) apart = std::max(apart, std::abs(ya.at(t) - yb.at(t)));
+    if (t <= kPullEnd + kInstant) apart = std::max(apart, std::abs(ya.at(t) - yb.at(t)));
   return {apart, ""};
 }
 
 Measured beyond(const Digest& d, const Results& results, int reference) {
   const Digest* other = with_elements(results, reference);
   if (!other) return missing("needs a result of " + std::to_string(reference) + " elements");
-  const double t = std::min(d.end_time(), other->end_time());
-  return {d.ring_position.at(0).component(1).at(t) - other->ring_position.at(0).component(1).at(t), ""};
+  for (const Digest* each : {&d, other})
+    if (!reaches(*each, kPullEnd)) return past_the_end(*each, kPullEnd);
+  return {
+      d.ring_position.at(0).component(1).at(kPullEnd) - other->ring_position.at(0).component(1).at(kPullEnd),
+      ""};
 }
 
 Measured ring_at(const Digest& d, int ring, int axis, double time) {

@@ -1,5 +1,6 @@
 // How each number of the paper is measured in a result. A number that a result cannot give comes back empty
-// with a note that says what is missing.
+// with a note that says what is missing. What the paper tells of the end of its runs is measured at that
+// time: a run that has not come so far decides nothing, a longer one tells the same.
 #pragma once
 #include <optional>
 #include <string>
@@ -18,7 +19,19 @@ namespace measure {
 
 using Results = std::vector<const Digest*>;
 
-// 5.1, thread pulling a ring
+Measured missing(const std::string& what);
+bool reaches(const Digest& d, double time);
+Measured past_the_end(const Digest& d, double time);  ///< why a number of this time is missing
+
+/// The greatest contact force on a ring up to a time.
+struct Peak {
+  double force = 0, time = -1;  ///< N, s; -1: never touched
+  std::string source;           ///< of samples that may have missed it; empty: it is that of every step
+};
+/// Absent where nothing of the ring was recorded.
+std::optional<Peak> peak_force(const Digest& d, int ring, double until);
+
+// 5.1, thread pulling a ring, until 1 s
 Measured ball_ahead_of_ring(const Digest& d);          ///< m, along Y at the end
 Measured ring_end_speed(const Digest& d);              ///< m/s, mean along Y over the last tenth
 Measured peak_ring_force(const Digest& d);             ///< N, of all rings
@@ -36,7 +49,8 @@ Measured left_above_right(const Digest& d, double time);  ///< m, against gravit
 /// Numbers of the mass on the short (paper: left) and on the long side; empty unless there are two.
 std::optional<std::array<int, 2>> left_and_right(const Digest& d);
 
-// 5.3, net closure; times are counted from the closing time where the name says "after"
+// 5.3, net closure, until 0.5 s after the closing time; times are counted from there where the name says
+// "after"
 Measured first_touch(const Digest& d);                ///< s
 Measured closed_after(const Digest& d);               ///< s
 Measured enclosed(const Digest& d);                   ///< 1 or 0

@@ -8,10 +8,9 @@ namespace cinch::measure {
 namespace {
 
 constexpr double kAfter = 0.1;  // s: "until 1.6 s" for a closing time of 1.5 s
+constexpr double kWhole = 0.5;  // s: the paper's run ends at 2 s
 
 std::size_t at(int i) { return static_cast<std::size_t>(i); }
-
-Measured missing(const std::string& what) { return {std::nullopt, what}; }
 
 Measured no_event(const Digest& d, const std::string& what) {
   if (!d.summary) return missing("the run left no summary");
@@ -75,7 +74,10 @@ Measured closed_after(const Digest& d) {
 
 Measured enclosed(const Digest& d) {
   if (!d.summary) return missing("the run left no summary");
-  return {d.first_event("target_enclosed") ? 1.0 : 0.0, ""};
+  if (!d.model.closing_time) return missing("nothing closes in this case");
+  const double end = *d.model.closing_time + kWhole;
+  if (const auto time = d.first_event("target_enclosed"); time && *time <= end + slack(d)) return {1, ""};
+  return reaches(d, end) ? Measured{0, ""} : past_the_end(d, end);
 }
 
 Measured separation_jump(const Digest& d, int axis) {
@@ -93,7 +95,7 @@ Measured separation_jump(const Digest& d, int axis) {
 Measured share_lost(const Digest& d, int axis) {
   const auto pair = split_masses(d);
   if (!pair || !d.model.closing_time) return missing("no split masses of mechanism 1 in this result");
-  if (d.end_time() < *d.model.closing_time + kAfter - 1e-6) return missing("the run ends too early");
+  if (!reaches(d, *d.model.closing_time + kAfter)) return past_the_end(d, *d.model.closing_time + kAfter);
   const Series v = velocity(d, (*pair)[0], axis);
   const double start = just_after(v, *d.model.closing_time, slack(d)),
                end = v.at(*d.model.closing_time + kAfter);
@@ -105,7 +107,7 @@ Measured y_change_over_x(const Digest& d) {
   const auto pair = split_masses(d);
   if (!pair || !d.model.closing_time) return missing("no split masses of mechanism 1 in this result");
   const double closing = *d.model.closing_time;
-  if (d.end_time() < closing + kAfter - 1e-6) return missing("the run ends too early");
+  if (!reaches(d, closing + kAfter)) return past_the_end(d, closing + kAfter);
   double change[2] = {0, 0};
   for (int axis = 0; axis < 2; ++axis) {
     const Series v = velocity(d, (*pair)[0], axis);
@@ -126,6 +128,7 @@ Measured turns_positive_after(const Digest& d) {
 Measured mirror_departure(const Digest& d) {
   const auto pair = split_masses(d);
   if (!pair || !d.model.closing_time) return missing("no split masses of mechanism 1 in this result");
+  if (!reaches(d, *d.model.closing_time + kAfter)) return past_the_end(d, *d.model.closing_time + kAfter);
   const VectorSeries &a = d.mass_velocity[at((*pair)[0])], &b = d.mass_velocity[at((*pair)[1])];
   double most = 0;
   for (std::size_t i = 0; i < std::min(a.t.size(), b.t.size()); ++i) {
@@ -152,12 +155,16 @@ Measured first_collision_force(const Digest& d, const std::string& ring) {
 }
 
 Measured peak_force_time(const Digest& d, const std::string& ring) {
-  const RingRecord* record = d.record(d.ring(ring));
-  if (!record || !d.model.closing_time) return missing("no record of ring " + ring);
-  if (record->peak_time < 0) return no_event(d, "ring " + ring + " was never touched");
+  if (!d.model.closing_time) return missing("nothing closes in this case");
+  const double end = *d.model.closing_time + kWhole;
+  if (!reaches(d, end)) return past_the_end(d, end);
+  const auto peak = peak_force(d, d.ring(ring), end);
+  if (!peak) return missing("no record of ring " + ring);
+  if (peak->time < 0) return no_event(d, "ring " + ring + " was never touched");
   char height[48];
-  std::snprintf(height, sizeof height, "here %.3g N high", record->peak_force);
-  return {record->peak_time - *d.model.closing_time, height};
+  std::snprintf(height, sizeof height, "here %.3g N high", peak->force);
+  return {peak->time - *d.model.closing_time,
+          height + (peak->source.empty() ? "" : ", from " + peak->source + " only")};
 }
 
 Measured least_gain_along_z(const Results& results) {
@@ -165,7 +172,7 @@ Measured least_gain_along_z(const Results& results) {
       reach;  // closing time, mean Z of mechanism 1's split masses 0.4 s later
   for (const Digest* d : results) {
     const auto pair = split_masses(*d);
-    if (!pair || !d->model.closing_time || d->end_time() < *d->model.closing_time + 0.4 - 1e-6) continue;
+    if (!pair || !d->model.closing_time || !reaches(*d, *d->model.closing_time + 0.4)) continue;
     const double time = *d->model.closing_time + 0.4;
     double z = 0;
     for (const int m : *pair) z += d->mass_position[at(m)].component(2).at(time) / 2;

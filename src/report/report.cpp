@@ -146,15 +146,18 @@ std::vector<std::size_t> by_closing_time(const std::vector<Digest>& digests) {
 
 string closing_time_row(const Digest& d) {
   const double closing = *d.model.closing_time;
-  const auto closed = measure::closed_after(d);
+  const auto closed = measure::closed_after(d), enclosed = measure::enclosed(d);
   string z = "–";
-  if (const auto pair = measure::split_masses(d); pair && d.end_time() >= closing + 0.4 - 1e-6)
+  if (const auto pair = measure::split_masses(d); pair && measure::reaches(d, closing + 0.4))
     z = html::quantity(measure::mass_at(d, (*pair)[0], 2, closing + 0.4).value.value_or(std::nan("")), "m");
   const auto cell = [](const string& text) { return "<td class=\"n\">" + text + "</td>"; };
   return "<tr>" + cell(html::quantity(closing, "s")) +
          cell(closed.value ? html::quantity(*closed.value + closing, "s") : "–") +
          cell(closed.value ? html::quantity(*closed.value, "s") : "–") + cell(z) + "<td>" +
-         (measure::enclosed(d).value.value_or(0) > 0 ? "yes" : "no") + "</td></tr>\n";
+         (!enclosed.value       ? "–"
+          : *enclosed.value > 0 ? "yes"
+                                : "no") +
+         "</td></tr>\n";
 }
 
 // Fig. 14: captures that close at different times, 0.4 s after each, all at the scale of the widest.

@@ -161,44 +161,57 @@ void edge_closure_table(const Results& results, Table& table) {
   row_each(results, "edge_closure.slightly", table, left_above);
 }
 
-void capture_rings(const Digest& d, Table& table) {
-  for (const char* ring : {"1", "2"}) {
-    const std::string key = std::string("capture.ring") + ring;
-    table.row(key + "_time", measure::first_collision_time(d, ring), &d);
-    table.row(key + "_force", measure::first_collision_force(d, ring), &d);
-  }
-  table.row("capture.ring1_peak", measure::peak_force_time(d, "1"), &d);
+// How far from the paper's 1.5 s a result closes, s.
+double off_closing_time(const Digest* d) {
+  return d->model.closing_time ? std::abs(*d->model.closing_time - 1.5) : 1e9;
 }
 
-void capture_velocities(const Digest& d, Table& table) {
-  table.row("capture.jump_x", measure::separation_jump(d, 0), &d);
-  table.row("capture.jump_y", measure::separation_jump(d, 1), &d);
-  table.row("capture.jump_z", measure::separation_jump(d, 2), &d);
-  table.row("capture.a1_falls", measure::share_lost(d, 0), &d);
-  table.row("capture.a1_turns", measure::turns_positive_after(d), &d);
-  table.row("capture.a1_y_steady", measure::y_change_over_x(d), &d);
-  table.row("capture.mirror", measure::mirror_departure(d), &d);
-}
-
-// All but Fig. 14 is of the run that closes at 1.5 s: the result nearest to it comes first.
-Results paper_run_first(Results results) {
-  constexpr double closing_time = 1.5;  // s
-  const auto off = [](const Digest* d) {
-    return d->model.closing_time ? std::abs(*d->model.closing_time - closing_time) : 1e9;
-  };
-  std::stable_sort(results.begin(), results.end(),
-                   [&](const Digest* a, const Digest* b) { return off(a) < off(b); });
+Results nearest_closing_time_first(Results results) {
+  std::stable_sort(results.begin(), results.end(), [](const Digest* a, const Digest* b) {
+    return off_closing_time(a) < off_closing_time(b);
+  });
   return results;
 }
 
+// All but Fig. 14 is of the run that closes at 1.5 s; null where there is none.
+const Digest* paper_run(const Results& results) {
+  const Digest* nearest = nearest_closing_time_first(results).front();
+  return off_closing_time(nearest) < 0.005 ? nearest : nullptr;
+}
+
+template <class Measure>
+void row_of(const Digest* run, const std::string& key, Table& table, Measure measure) {
+  table.row(key, run ? measure(*run) : Measured{{}, "needs a result that closes at 1.5 s"}, run);
+}
+
+void capture_rings(const Digest* run, Table& table) {
+  for (const char* ring : {"1", "2"}) {
+    const std::string key = std::string("capture.ring") + ring;
+    row_of(run, key + "_time", table, [&](auto& d) { return measure::first_collision_time(d, ring); });
+    row_of(run, key + "_force", table, [&](auto& d) { return measure::first_collision_force(d, ring); });
+  }
+  row_of(run, "capture.ring1_peak", table, [](auto& d) { return measure::peak_force_time(d, "1"); });
+}
+
+void capture_velocities(const Digest* run, Table& table) {
+  for (int axis = 0; axis < 3; ++axis)
+    row_of(run, std::string("capture.jump_") + "xyz"[axis], table,
+           [&](auto& d) { return measure::separation_jump(d, axis); });
+  row_of(run, "capture.a1_falls", table, [](auto& d) { return measure::share_lost(d, 0); });
+  row_of(run, "capture.a1_turns", table, measure::turns_positive_after);
+  row_of(run, "capture.a1_y_steady", table, measure::y_change_over_x);
+  row_of(run, "capture.mirror", table, measure::mirror_departure);
+}
+
 void capture_table(const Results& unsorted, Table& table) {
-  const Results results = paper_run_first(unsorted);
-  table.row("capture.first_touch", measure::first_touch(*results.front()), results.front());
-  table.row("capture.closes_after", measure::closed_after(*results.front()), results.front());
+  const Results results = nearest_closing_time_first(unsorted);
+  const Digest* run = paper_run(results);
+  row_of(run, "capture.first_touch", table, measure::first_touch);
+  row_of(run, "capture.closes_after", table, measure::closed_after);
   if (results.size() > 1) row_each(results, "capture.closed_by", table, measure::closed_after);
   row_each(results, "capture.enclosed", table, measure::enclosed);
-  capture_velocities(*results.front(), table);
-  capture_rings(*results.front(), table);
+  capture_velocities(run, table);
+  capture_rings(run, table);
   table.row("capture.later_further", measure::least_gain_along_z(results));
 }
 
@@ -234,7 +247,7 @@ std::vector<VerdictRow> compare_with_paper(const std::vector<Digest>& results,
     if (d.paper_case == results.front().paper_case) same.push_back(&d);
   if (same.empty()) return {};
   const bool closes = same.front()->paper_case == PaperCase::capture;
-  Table table(sensitivity, same.size() > 1, closes ? paper_run_first(same).front() : same.front());
+  Table table(sensitivity, same.size() > 1, closes ? paper_run(same) : same.front());
   if (same.front()->paper_case == PaperCase::ring_pull) ring_pull_table(same, table);
   if (same.front()->paper_case == PaperCase::edge_closure) edge_closure_table(same, table);
   if (same.front()->paper_case == PaperCase::capture) capture_table(same, table);
