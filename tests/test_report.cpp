@@ -347,6 +347,60 @@ TEST(Report, A_mouth_has_its_figure_in_any_case) {
   EXPECT_EQ(plots[0].marks[0].label, "touches target") << "in the order of time";
 }
 
+/// The column `name` of a probe that rises from 0 to `end`.
+ProbeSeries probed(const std::string& name, const std::string& quantity, const std::string& of,
+                   const std::string& unit, double end) {
+  return {{name, quantity, of, unit}, {{0, 1}, {0, end}}};
+}
+
+TEST(Report, Probes_of_a_quantity_share_a_chart) {
+  Digest d;
+  for (const char* axis : {".x", ".y", ".z"})
+    d.probes.push_back(probed(std::string("tip") + axis, "position", "thread.a.end", "m", 1));
+  d.probes.push_back(probed("rope", "tension", "thread.a", "N", 3));
+  d.probes.push_back(probed("net", "tension", "net.main", "N", 4));
+  d.probes.push_back(probed("area", "mouth_area", "", "m^2", 2));
+  const auto plots = probe_plots(d, {});
+  ASSERT_EQ(plots.size(), 3u);
+  EXPECT_EQ(plots[0].title, "Position: tip");
+  EXPECT_EQ(plots[0].y, "position, m");
+  ASSERT_EQ(plots[0].curves.size(), 3u);
+  EXPECT_EQ(plots[0].curves[2].label, "tip.z");
+  EXPECT_FALSE(plots[0].from_zero);
+  EXPECT_EQ(plots[1].title, "Tension: rope, net");
+  EXPECT_EQ(plots[1].note, "rope: thread.a; net: net.main");
+  EXPECT_EQ(plots[1].curves[1].points.v.back(), 4);
+  EXPECT_NE(plots[1].curves[0].colour, plots[1].curves[1].colour);
+  EXPECT_EQ(plots[2].y, "mouth area, m²");
+}
+
+TEST(Report, A_chart_has_no_more_curves_than_colours) {
+  Digest d;
+  for (int k = 0; k < 19; ++k)
+    d.probes.push_back(probed("t" + std::to_string(k), "tension", "thread.a", "N", k));
+  const auto plots = probe_plots(d, {});
+  ASSERT_EQ(plots.size(), 3u);
+  for (const Plot& plot : plots) EXPECT_LE(plot.curves.size(), 8u);
+  EXPECT_EQ(plots[2].title, "Tension: t16, t17, t18");
+}
+
+TEST(Report, Probes_that_a_figure_shows_have_no_further_chart) {
+  Digest pull = good_pull();
+  pull.probes = {probed("force.x", "force", "ring.r1", "N", 1),
+                 probed("path.y", "position", "thread.main.start", "m", 1),
+                 probed("rope", "tension", "thread.main", "N", 1)};
+  const auto plots = probe_plots(pull, figure_plots({pull}));
+  ASSERT_EQ(plots.size(), 1u);
+  EXPECT_EQ(plots[0].title, "Tension: rope");
+  Digest caught = capture();
+  caught.ring_force.assign(16, line(Vec3::Zero(), {0, 0, 1}, 2));
+  caught.probes = {probed("v.x", "velocity", "mechanism.m1.a", "m/s", 1),
+                   probed("f.x", "force", "ring.r2", "N", 1), probed("f3.x", "force", "ring.r3", "N", 1),
+                   probed("area", "mouth_area", "", "m^2", 1)};
+  ASSERT_EQ(probe_plots(caught, figure_plots({caught})).size(), 1u);
+  EXPECT_EQ(probe_plots(caught, figure_plots({caught}))[0].title, "Force: f3");
+}
+
 TEST(Report, Later_closing_times_reach_further) {
   EXPECT_EQ(verdict_on({capture(1.5), capture(1.2), capture(1.6)}, "capture.later_further"),
             Verdict::reproduced);
@@ -565,6 +619,37 @@ TEST(Report, The_page_stands_on_its_own) {
   EXPECT_EQ(page.find("{{"), std::string::npos);
   EXPECT_NE(page.find("A &lt;square&gt;"), std::string::npos);
   EXPECT_NE(page.find("node 3 ran away &lt;/script&gt;"), std::string::npos);
+}
+
+TEST(Report, The_page_draws_the_probes_of_a_case) {
+  const Scratch scratch;
+  record_square(scratch.path, true);
+  const std::string page = report_text(scratch.path);
+  EXPECT_NE(page.find("<h2>Probes</h2>"), std::string::npos);
+  EXPECT_NE(page.find("Force: f"), std::string::npos);
+  const std::string start = "<script type=\"application/json\" id=\"plots\">";
+  const auto from = page.find(start) + start.size();
+  const auto plots = nlohmann::json::parse(page.substr(from, page.find("</script>", from) - from));
+  ASSERT_EQ(plots.size(), 4u) << "probes, ledger, residual, tension";
+  EXPECT_EQ(plots[0]["y"], "force, N");
+  EXPECT_EQ(plots[0]["curves"].size(), 3u);
+  EXPECT_EQ(plots[3]["y"], "tension, N");
+  EXPECT_NE(page.find("data-plot=\"3\""), std::string::npos) << "each canvas has its data";
+}
+
+TEST(Report, Too_many_charts_of_probes_are_counted) {
+  const Scratch scratch;
+  ResultModel model = square_model();
+  model.probes.clear();
+  for (int k = 0; k < 8 * 26; ++k)
+    model.probes.push_back({"t" + std::to_string(k), "tension", "net.main", "N"});
+  Recorder recorder(scratch.path, model, {});
+  recorder.probes(0, std::vector<double>(model.probes.size(), 1));
+  recorder.frame(square_frame(0));
+  const std::string page = report_text(scratch.path);
+  EXPECT_NE(page.find("2 more charts would make this page slow"), std::string::npos);
+  EXPECT_NE(page.find("data-plot=\"26\""), std::string::npos);
+  EXPECT_EQ(page.find("data-plot=\"27\""), std::string::npos) << "24 of probes, 3 of energy and tension";
 }
 
 TEST(Report, Only_pages_and_tables_of_its_own_are_replaced) {

@@ -36,13 +36,9 @@ std::vector<Curve> curve_each(const std::vector<const Digest*>& results, Pick pi
   return curves;
 }
 
-std::vector<Mark> capture_marks(const Digest& d) {
-  std::vector<Mark> marks;
-  if (d.model.closing_time) marks.push_back({*d.model.closing_time, "closing"});
-  if (const auto t = d.first_event("target_contact")) marks.push_back({*t, "touches target"});
-  if (const auto t = d.first_event("mouth_closed")) marks.push_back({*t, "mouth closed"});
-  std::sort(marks.begin(), marks.end(), [](const Mark& a, const Mark& b) { return a.at < b.at; });
-  return marks;
+// The probes whose curve a plot shows.
+void show(Plot& plot, std::initializer_list<const char*> quantities, const std::string& of) {
+  for (const char* quantity : quantities) plot.shows.push_back(probe_key(quantity, of));
 }
 
 // The paper's Figs. 12 and 13 begin shortly before the closing time.
@@ -95,19 +91,24 @@ std::vector<Plot> ring_pull_plots(const std::vector<const Digest*>& results) {
          {{paper_number("ring_pull.ball_y").value}, {paper_number("ring_pull.ball_z").value}},
          "reference",
          4});
-  return {
-      {"Displacement of the ring",
-       "Fig. 8",
-       "t, s",
-       "ring Y, m",
-       curve_each(results, ring_y),
-       {},
-       "",
-       false,
-       false},
-      force_against_elements(results),
-      ball,
-      {"Contact force on the ring", "", "t, s", "force, N", curve_each(results, force), {}, "", false, true}};
+  Plot ring{"Displacement of the ring",
+            "Fig. 8",
+            "t, s",
+            "ring Y, m",
+            curve_each(results, ring_y),
+            {},
+            "",
+            false,
+            false};
+  Plot contact{
+      "Contact force on the ring", "", "t, s", "force, N", curve_each(results, force), {}, "", false, true};
+  const ResultModel& model = results.front()->model;
+  for (const auto& mass : model.masses) show(ball, {"position", "displacement"}, mass.name);
+  for (const auto& each : model.rings) {
+    show(ring, {"position", "displacement"}, "ring." + each.name);
+    show(contact, {"force"}, "ring." + each.name);
+  }
+  return {ring, force_against_elements(results), ball, contact};
 }
 
 std::vector<Plot> edge_closure_plots(const std::vector<const Digest*>& results) {
@@ -120,6 +121,7 @@ std::vector<Plot> edge_closure_plots(const std::vector<const Digest*>& results) 
       Curve curve{side == 0 ? "left mass" : "right mass", {path.t, {}}, "line", static_cast<int>(side)};
       for (const Vec3& p : path.v) curve.points.v.push_back(up.dot(p));
       heights.curves.push_back(curve);
+      show(heights, {"position", "displacement"}, d.model.masses[at((*pair)[side])].name);
     }
   } else {
     heights.note = "The result names no two masses, or its case has no gravity.";
@@ -137,10 +139,13 @@ std::vector<Plot> edge_closure_plots(const std::vector<const Digest*>& results) 
     const double level = paper_number("edge_closure.bunched").value;
     spread.curves.push_back({"bunched", {{0, d.end_time()}, {level, level}}, "dash", 4});
   }
+  show(spread, {"mouth_spread"}, "");
   Plot force{"Contact force on the rings", "", "t, s", "force, N", {}, {}, "", false, true};
-  for (std::size_t r = 0; r < d.ring_force.size(); ++r)
+  for (std::size_t r = 0; r < d.ring_force.size(); ++r) {
     force.curves.push_back(
         {"ring " + d.model.rings[r].name, d.ring_force[r].norm(), "line", static_cast<int>(r)});
+    show(force, {"force"}, "ring." + d.model.rings[r].name);
+  }
   return {heights, spread, force};
 }
 
@@ -151,7 +156,7 @@ Plot velocity_plot(const Digest& d, int axis) {
             "t, s",
             std::string("v") + name + ", m/s",
             {},
-            capture_marks(d),
+            event_marks(d),
             "",
             false,
             false,
@@ -161,9 +166,11 @@ Plot velocity_plot(const Digest& d, int axis) {
     plot.note = "The result has no split masses of a mechanism 1.";
     return plot;
   }
-  for (std::size_t side = 0; side < 2; ++side)
+  for (std::size_t side = 0; side < 2; ++side) {
     plot.curves.push_back({side == 0 ? "A1" : "B1", d.mass_velocity[at((*pair)[side])].component(axis),
                            "line", static_cast<int>(side)});
+    show(plot, {"velocity"}, d.model.masses[at((*pair)[side])].name);
+  }
   if (d.mass_velocity[at((*pair)[0])].source == "frames")
     plot.note = "From frames: no velocity probe of the split masses.";
   return plot;
@@ -187,7 +194,8 @@ Plot ring_plot(const Digest& d, const std::string& name) {
   }
   const VectorSeries& force = d.ring_force[at(ring)];
   plot.curves.push_back({"ring " + name, force.norm(), "line", 0});
-  plot.marks = capture_marks(d);
+  show(plot, {"force"}, "ring." + d.model.rings[at(ring)].name);
+  plot.marks = event_marks(d);
   if (force.source == "frames") plot.note = "From frames: no force probe of this ring, so peaks are missed.";
   return plot;
 }
@@ -201,11 +209,12 @@ std::vector<Plot> capture_plots(const std::vector<const Digest*>& results) {
              "t, s",
              "area, m²",
              curve_each(results, [](const Digest& r) { return r.mouth_area; }),
-             capture_marks(d),
+             event_marks(d),
              "",
              false,
              true};
   if (mouth.curves.empty()) mouth.note = "The result has fewer than three rings.";
+  show(mouth, {"mouth_area"}, "");
   plots.push_back(mouth);
   return plots;
 }
@@ -232,6 +241,17 @@ nlohmann::json curve_json(const Curve& curve, const std::optional<double>& from)
 
 }  // namespace
 
+std::string probe_key(const std::string& quantity, const std::string& of) { return quantity + " of " + of; }
+
+std::vector<Mark> event_marks(const Digest& d) {
+  std::vector<Mark> marks;
+  if (d.model.closing_time) marks.push_back({*d.model.closing_time, "closing"});
+  if (const auto t = d.first_event("target_contact")) marks.push_back({*t, "touches target"});
+  if (const auto t = d.first_event("mouth_closed")) marks.push_back({*t, "mouth closed"});
+  std::sort(marks.begin(), marks.end(), [](const Mark& a, const Mark& b) { return a.at < b.at; });
+  return marks;
+}
+
 std::vector<Plot> figure_plots(const std::vector<Digest>& results) {
   const auto same = of_case(results);
   switch (results.front().paper_case) {
@@ -246,16 +266,18 @@ std::vector<Plot> figure_plots(const std::vector<Digest>& results) {
   }
   std::vector<Plot> plots;
   const Digest& d = results.front();
-  if (!d.mouth_area.empty())
+  if (!d.mouth_area.empty()) {
     plots.push_back({"Area of the mouth",
                      "",
                      "t, s",
                      "area, m²",
                      {{d.label(), d.mouth_area, "line", 0}},
-                     capture_marks(d),
+                     event_marks(d),
                      "",
                      false,
                      true});
+    show(plots.back(), {"mouth_area"}, "");
+  }
   return plots;
 }
 

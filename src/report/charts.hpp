@@ -31,10 +31,21 @@ struct Plot {
   bool equal_axes = false;                    ///< a path: the same scale along x and y
   bool from_zero = false;                     ///< y axis begins at 0
   std::optional<double> from = std::nullopt;  ///< curves are shown from this abscissa on
+  std::vector<std::string> shows = {};        ///< probes that need no chart besides: keys of probe_key()
 };
+
+/// Names what a probe records, whatever the probe's own name.
+std::string probe_key(const std::string& quantity, const std::string& of);
+
+/// Closing, first touch and closed mouth, in the order of time.
+std::vector<Mark> event_marks(const Digest& d);
 
 /// Plots of the paper's figures for the case of the first result.
 std::vector<Plot> figure_plots(const std::vector<Digest>& results);
+
+/// The probes of the first result that `others` do not show: those of the same quantity share charts, as far
+/// as there are colours; vectors by their components.
+std::vector<Plot> probe_plots(const Digest& result, const std::vector<Plot>& others);
 
 /// Energy ledger, its residual, greatest tension of the first result.
 std::vector<Plot> energy_plots(const Digest& result);

@@ -131,6 +131,9 @@ void read_probes(const Result& result, Digest& d) {
   }
   take_scalar(result, "mouth_area", d.mouth_area);
   take_scalar(result, "mouth_spread", d.mouth_spread);
+  for (const auto& column : d.model.probes)
+    if (probed_quantity(column) != "energy")
+      d.probes.push_back({column, thinned({result.probe_times(), result.probe(column.name)})});
 }
 
 // The resolved case is a case file; another version may have written what this one does not read.
@@ -147,6 +150,10 @@ void read_resolved_case(Digest& d) {
 }
 
 }  // namespace
+
+std::string probed_quantity(const ResultModel::ProbeColumn& column) {
+  return column.quantity.substr(0, column.quantity.find('.'));
+}
 
 int Digest::mass(const std::string& name) const {
   for (std::size_t m = 0; m < model.masses.size(); ++m)

@@ -10,6 +10,15 @@
 
 namespace cinch {
 
+/// One column of a case's probes, thinned for a chart.
+struct ProbeSeries {
+  ResultModel::ProbeColumn column;
+  Series values;
+};
+
+/// What a column is of: "force" for the components of a force, too.
+std::string probed_quantity(const ResultModel::ProbeColumn& column);
+
 /// Series come from probes where the run has them, else from its frames.
 struct Digest {
   ResultModel model;  ///< its masses without those of rings, which are shown as rings
@@ -22,6 +31,7 @@ struct Digest {
   std::vector<VectorSeries> ring_position, ring_force;     ///< m, N: one for each ring
   std::vector<VectorSeries> mass_position, mass_velocity;  ///< m, m/s: one for each named mass
   Series mouth_area, mouth_spread;                         ///< m^2, m
+  std::vector<ProbeSeries> probes;                         ///< all but energies, which frames have as well
   Series peak_tension;                                     ///< N, greatest of all elements, from the frames
   double start_speed = 0;                                  ///< m/s, greatest of all nodes in the first frame
   std::optional<Vec3> gravity;                             ///< m/s^2, from the resolved case

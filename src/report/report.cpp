@@ -214,6 +214,21 @@ string view_section() {
          "double click to start over.</p></section>\n";
 }
 
+// Charts of the first result's own probes, the first of them where there are too many for a page.
+constexpr std::size_t kMostProbeCharts = 24;
+
+string probe_section(const std::vector<Plot>& charts, std::size_t left_out, const string& label,
+                     std::size_t first) {
+  if (charts.empty()) return "";
+  string out = "<section><h2>Probes" +
+               (label.empty() ? "" : " <span class=\"soft\">of " + escape_markup(label) + "</span>") +
+               "</h2>\n" + page::plots(charts, first);
+  if (left_out > 0)
+    out += gap(std::to_string(left_out) +
+               " more charts would make this page slow; the result holds all probes.");
+  return out + "</section>\n";
+}
+
 string record_section(const Digest& d) {
   if (!d.summary) return "";
   return "<section><h2>Record</h2>\n<div class=\"columns\"><div><h3>Rings</h3>" + page::rings(*d.summary) +
@@ -230,12 +245,16 @@ void write_report(const std::vector<Result>& results, const std::filesystem::pat
   const auto rows = compare_with_paper(digests, open_inputs);
   const Digest& d = digests.front();
   const auto figures = figure_plots(digests), energy = energy_plots(d);
+  auto probes = probe_plots(d, figures);
+  const std::size_t left_out = probes.size() - std::min(probes.size(), kMostProbeCharts);
+  probes.resize(probes.size() - left_out);
 
   string body = page::lead(digests, rows);
   body += "<section><h2>Verdict</h2>\n" + page::facts(digests) + "</section>\n";
   body += "<section><h2>Paper against Cinch</h2>\n" + page::paper_table(rows, digests.size() > 1) +
           page::unjudged(digests) + "</section>\n";
   if (!figures.empty()) body += "<section><h2>Figures</h2>\n" + page::plots(figures, 0) + "</section>\n";
+  body += probe_section(probes, left_out, digests.size() > 1 ? d.label() : "", figures.size());
   body += picture_section(results.front(), d);
   if (several_closing_times(digests)) body += closing_times_section(results, digests);
   string view;
@@ -244,12 +263,13 @@ void write_report(const std::vector<Result>& results, const std::filesystem::pat
     view = net_view_json(results.front(), d.model, choose_camera(d.model, first, last, hints_of(d)));
     body += view.empty() ? gap("The net is too large for the turnable view of this page.") : view_section();
   }
-  body += "<section><h2>Energy and tension</h2>\n" + page::plots(energy, figures.size()) + "</section>\n";
+  body += "<section><h2>Energy and tension</h2>\n" + page::plots(energy, figures.size() + probes.size()) +
+          "</section>\n";
   body += record_section(d) + "<section><h2>How to reproduce this</h2>\n" + page::reproduce(digests) +
           "</section>\n";
 
   auto plots = figures;
-  plots.insert(plots.end(), energy.begin(), energy.end());
+  for (const auto& more : {probes, energy}) plots.insert(plots.end(), more.begin(), more.end());
   replace_text_file(html_file, page::whole(d.model.case_name + " - Cinch", body, plots_json(plots), view));
 }
 
