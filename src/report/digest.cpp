@@ -19,6 +19,29 @@ bool ends_with(const std::string& text, const std::string& end) {
   return text.size() >= end.size() && text.compare(text.size() - end.size(), end.size(), end) == 0;
 }
 
+/// All probes, read at once: each look into the file would read all of them again.
+class ProbeTable {
+ public:
+  explicit ProbeTable(const Result& result) : columns(result.model().probes), times(result.probe_times()) {
+    if (!columns.empty()) rows_ = result.probe_rows(times.size());
+  }
+  Series series(std::size_t column) const {
+    Series out{times, std::vector<double>(times.size())};
+    for (std::size_t row = 0; row < times.size(); ++row) out.v[row] = rows_[row * columns.size() + column];
+    return out;
+  }
+  std::vector<double> values(const std::string& name) const {
+    const auto found = std::find_if(columns.begin(), columns.end(), [&](auto& c) { return c.name == name; });
+    return series(static_cast<std::size_t>(found - columns.begin())).v;
+  }
+
+  const std::vector<ResultModel::ProbeColumn>& columns;
+  const std::vector<double> times;
+
+ private:
+  std::vector<double> rows_;
+};
+
 /// The columns of one probe: a scalar, or the components x, y, z.
 struct Columns {
   std::string scalar;
@@ -33,10 +56,10 @@ int component_of(const std::string& name) {
   return axis == std::string::npos ? -1 : static_cast<int>(axis);
 }
 
-Columns find_columns(const ResultModel& model, const std::string& quantity,
+Columns find_columns(const ProbeTable& probes, const std::string& quantity,
                      const std::vector<std::string>& of) {
   Columns found;
-  for (const auto& column : model.probes) {
+  for (const auto& column : probes.columns) {
     const bool same = column.quantity == quantity || starts_with(column.quantity, quantity + ".");
     if (!same || std::find(of.begin(), of.end(), column.of) == of.end()) continue;
     const int axis = component_of(column.name);
@@ -45,33 +68,32 @@ Columns find_columns(const ResultModel& model, const std::string& quantity,
   return found;
 }
 
-void take_vector(const Result& result, const std::string& quantity, const std::vector<std::string>& of,
+void take_vector(const ProbeTable& probes, const std::string& quantity, const std::vector<std::string>& of,
                  VectorSeries& into) {
-  const Columns columns = find_columns(result.model(), quantity, of);
+  const Columns columns = find_columns(probes, quantity, of);
   if (!columns.vector()) return;
-  const auto x = result.probe(columns.part[0]), y = result.probe(columns.part[1]),
-             z = result.probe(columns.part[2]);
+  const auto x = probes.values(columns.part[0]), y = probes.values(columns.part[1]),
+             z = probes.values(columns.part[2]);
   if (x.empty()) return;
-  into = {result.probe_times(), {}, "probe"};
+  into = {probes.times, {}, "probe"};
   for (std::size_t i = 0; i < x.size(); ++i) into.v.emplace_back(x[i], y[i], z[i]);
 }
 
 // A displacement counts from the first frame's position.
-void take_displacement(const Result& result, const std::vector<std::string>& of, VectorSeries& into) {
+void take_displacement(const ProbeTable& probes, const std::vector<std::string>& of, VectorSeries& into) {
   if (into.empty()) return;
   const Vec3 start = into.v.front();
   VectorSeries moved;
-  take_vector(result, "displacement", of, moved);
+  take_vector(probes, "displacement", of, moved);
   if (moved.empty()) return;
   for (Vec3& value : moved.v) value += start;
   into = std::move(moved);
 }
 
-void take_scalar(const Result& result, const std::string& quantity, Series& into) {
-  for (const auto& column : result.model().probes) {
-    if (column.quantity != quantity) continue;
-    Series series{result.probe_times(), result.probe(column.name)};
-    if (!series.empty()) into = std::move(series);
+void take_scalar(const ProbeTable& probes, const std::string& quantity, Series& into) {
+  for (std::size_t k = 0; k < probes.columns.size(); ++k) {
+    if (probes.columns[k].quantity != quantity) continue;
+    if (!probes.times.empty()) into = probes.series(k);
     return;
   }
 }
@@ -118,22 +140,24 @@ void read_frames(const Result& result, Digest& d) {
 
 // A probe is finer in time than the frames and takes their place.
 void read_probes(const Result& result, Digest& d) {
+  const ProbeTable probes(result);
   for (std::size_t r = 0; r < d.model.rings.size(); ++r) {
     const std::vector<std::string> of{"ring." + d.model.rings[r].name, d.model.rings[r].name};
-    take_displacement(result, of, d.ring_position[r]);
-    take_vector(result, "position", of, d.ring_position[r]);
-    take_vector(result, "force", of, d.ring_force[r]);
+    take_displacement(probes, of, d.ring_position[r]);
+    take_vector(probes, "position", of, d.ring_position[r]);
+    take_vector(probes, "force", of, d.ring_force[r]);
   }
   for (std::size_t m = 0; m < d.model.masses.size(); ++m) {
-    take_displacement(result, {d.model.masses[m].name}, d.mass_position[m]);
-    take_vector(result, "position", {d.model.masses[m].name}, d.mass_position[m]);
-    take_vector(result, "velocity", {d.model.masses[m].name}, d.mass_velocity[m]);
+    take_displacement(probes, {d.model.masses[m].name}, d.mass_position[m]);
+    take_vector(probes, "position", {d.model.masses[m].name}, d.mass_position[m]);
+    take_vector(probes, "velocity", {d.model.masses[m].name}, d.mass_velocity[m]);
   }
-  take_scalar(result, "mouth_area", d.mouth_area);
-  take_scalar(result, "mouth_spread", d.mouth_spread);
-  for (const auto& column : d.model.probes)
-    if (probed_quantity(column) != "energy")
-      d.probes.push_back({column, thinned({result.probe_times(), result.probe(column.name)})});
+  take_scalar(probes, "mouth_area", d.mouth_area);
+  take_scalar(probes, "mouth_spread", d.mouth_spread);
+  constexpr std::size_t points = 1500;  // of a curve among many
+  for (std::size_t k = 0; k < probes.columns.size(); ++k)
+    if (probed_quantity(probes.columns[k]) != "energy")
+      d.probes.push_back({probes.columns[k], thinned(probes.series(k), points)});
 }
 
 // The resolved case is a case file; another version may have written what this one does not read.
