@@ -384,6 +384,19 @@ TEST(Report, A_chart_has_no_more_curves_than_colours) {
   EXPECT_EQ(plots[2].title, "Tension: t16, t17, t18");
 }
 
+TEST(Report, Every_quantity_keeps_a_chart_where_there_are_too_many) {
+  Digest d;
+  for (int k = 0; k < 50; ++k)
+    d.probes.push_back(probed("t" + std::to_string(k), "tension", "thread.a", "N", k));
+  d.probes.push_back(probed("spread", "mouth_spread", "", "m", 1));
+  auto plots = probe_plots(d, {});
+  EXPECT_EQ(plots.size(), 8u);
+  EXPECT_EQ(leave_out(plots, 3), 5u);
+  ASSERT_EQ(plots.size(), 3u);
+  EXPECT_EQ(plots[0].curves[0].label, "t0");
+  EXPECT_EQ(plots[2].title, "Mouth spread: spread");
+}
+
 TEST(Report, Probes_that_a_figure_shows_have_no_further_chart) {
   Digest pull = good_pull();
   pull.probes = {probed("force.x", "force", "ring.r1", "N", 1),

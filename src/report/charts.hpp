@@ -47,6 +47,9 @@ std::vector<Plot> figure_plots(const std::vector<Digest>& results);
 /// as there are colours; vectors by their components.
 std::vector<Plot> probe_plots(const Digest& result, const std::vector<Plot>& others);
 
+/// Takes away what is beyond `most`, from the quantity that has most charts each time; how many went.
+std::size_t leave_out(std::vector<Plot>& plots, std::size_t most);
+
 /// Energy ledger, its residual, greatest tension of the first result.
 std::vector<Plot> energy_plots(const Digest& result);
 

@@ -1,6 +1,7 @@
 // Charts of a case's own probes.
 #include <algorithm>
 #include <cctype>
+#include <map>
 
 #include "report/charts.hpp"
 
@@ -90,6 +91,20 @@ std::vector<Plot> probe_plots(const Digest& d, const std::vector<Plot>& others) 
     }
   }
   return plots;
+}
+
+std::size_t leave_out(std::vector<Plot>& plots, std::size_t most) {
+  std::size_t count = 0;
+  for (; plots.size() > most; ++count) {
+    std::map<std::string, int> charts;
+    for (const Plot& plot : plots) ++charts[plot.y];
+    const auto longest =
+        std::max_element(charts.begin(), charts.end(), [](auto& a, auto& b) { return a.second < b.second; });
+    const auto last = std::find_if(plots.rbegin(), plots.rend(),
+                                   [&](const Plot& plot) { return plot.y == longest->first; });
+    plots.erase(std::next(last).base());
+  }
+  return count;
 }
 
 }  // namespace cinch

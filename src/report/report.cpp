@@ -214,7 +214,7 @@ string view_section() {
          "double click to start over.</p></section>\n";
 }
 
-// Charts of the first result's own probes, the first of them where there are too many for a page.
+// Charts of the first result's own probes.
 constexpr std::size_t kMostProbeCharts = 24;
 
 string probe_section(const std::vector<Plot>& charts, std::size_t left_out, const string& label,
@@ -246,8 +246,7 @@ void write_report(const std::vector<Result>& results, const std::filesystem::pat
   const Digest& d = digests.front();
   const auto figures = figure_plots(digests), energy = energy_plots(d);
   auto probes = probe_plots(d, figures);
-  const std::size_t left_out = probes.size() - std::min(probes.size(), kMostProbeCharts);
-  probes.resize(probes.size() - left_out);
+  const std::size_t left_out = leave_out(probes, kMostProbeCharts);
 
   string body = page::lead(digests, rows);
   body += "<section><h2>Verdict</h2>\n" + page::facts(digests) + "</section>\n";
