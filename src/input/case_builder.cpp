@@ -148,7 +148,8 @@ void CaseBuilder::read_run() {
   }
   read_single(output_section(), scene_.output);
   read_single(gravity_section(), scene_);
-  read_single(start_section(), scene_);
+  if (const SectionValues* start = read_single(start_section(), scene_))
+    scene_.equilibrium_source.text = diagnostics_.where(start->place_of("equilibrium"));
   if (const SectionValues* closing = read_single(closing_section(), scene_.closing))
     scene_.closing.source.text = diagnostics_.where(closing->place_of("time_s"));
   read_single(contact_section(), scene_.contact);

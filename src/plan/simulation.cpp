@@ -4,10 +4,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 
 #include "plan/contact_health.hpp"
 #include "plan/health.hpp"
 #include "plan/probes.hpp"
+#include "scene/fault.hpp"
 #include "statics/equilibrium.hpp"
 
 namespace cinch {
@@ -22,6 +24,22 @@ std::int64_t health_interval(Index nodes) {
 }
 
 constexpr std::size_t history_length = 8;  ///< looks at speeds that a run which fails tells of
+
+EquilibriumResult equilibrium_of(const StaticNet& net, const Assembly& assembly, const SourceRef& source) {
+  try {
+    return find_equilibrium(net);
+  } catch (const CanFall& fall) {
+    const Vec3& place = net.position[fall.node];
+    char text[300];
+    std::snprintf(text, sizeof text,
+                  "start.equilibrium: found true, but %s at (%.6g, %.6g, %.6g) m and what is tied to it (%zu "
+                  "nodes) can fall: no fixed node and no guide holds them; allowed: false, or a support for "
+                  "each piece",
+                  node_label(assembly, static_cast<Index>(fall.node)).c_str(), place.x(), place.y(),
+                  place.z(), fall.nodes);
+    fail(source, text);
+  }
+}
 
 // Positions of the nodes that exist before closing in static equilibrium; closing nodes are laid on them
 // again.
@@ -42,7 +60,7 @@ void hang(Assembly& assembly, const Scene& scene, bool closes_at_once) {
     net.rest_length.push_back(item.rest_length);
   }
   net.gravity = scene.gravity.value_or(Vec3::Zero());
-  const EquilibriumResult found = find_equilibrium(net);
+  const EquilibriumResult found = equilibrium_of(net, assembly, scene.equilibrium_source);
   for (Index i = 0; i < assembly.nodes_before; ++i) assembly.nodes[at(i)].position = found.position[at(i)];
   for (const Lay& lay : assembly.lays)
     assembly.nodes[at(lay.node)].position = (1 - lay.s) * assembly.nodes[at(lay.a)].position +

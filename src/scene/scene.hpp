@@ -239,6 +239,7 @@ struct Scene {
   Closing closing;
   std::optional<Vec3> gravity;  ///< m/s^2
   bool equilibrium = false;     ///< start from static equilibrium under gravity
+  SourceRef equilibrium_source;
   TimeSpec time;
   OutputSpec output;
   std::vector<Probe> probes;

@@ -29,7 +29,8 @@ void check_converged(const Workspace& work, const Points& x, double tolerance) {
   std::snprintf(text, sizeof text,
                 " keeps a residual force of %.3g N (%.3g of the weight) after %d factorisations", force,
                 force / work.weight, work.iterations);
-  throw NumericalError("static equilibrium not found: " + statics::describe(work.net, x, worst) + text);
+  throw NumericalError("error: static equilibrium not found: " + statics::describe(work.net, x, worst) +
+                       text);
 }
 
 EquilibriumResult result_of(const Workspace& work, Points x) {

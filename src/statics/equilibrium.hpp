@@ -10,10 +10,18 @@
 #pragma once
 #include <vector>
 
+#include "base/error.hpp"
 #include "base/vec3.hpp"
 #include "statics/static_net.hpp"
 
 namespace cinch {
+
+/// A piece that gravity can carry away.
+struct CanFall : NumericalError {
+  std::size_t node, nodes;  ///< its first node; how many it has
+  CanFall(const std::string& message, std::size_t first, std::size_t count)
+      : NumericalError(message), node(first), nodes(count) {}
+};
 
 struct EquilibriumOptions {
   double tolerance = 1e-10;   ///< largest nodal residual over the weight of the movable nodes, -
@@ -33,8 +41,8 @@ struct EquilibriumResult {
 /// along the axis; without any weight it is measured against the largest residual of the first guess.
 /// Coordinates are rounded to the last place of the largest one, so k times that is the least force that can
 /// be balanced: a residual above `tolerance` is accepted once no step improves it and it is at most 1e-9 or
-/// four times that rounding force over the weight. Throws NumericalError: arrays that do not fit together, a
-/// piece that gravity can carry away (names a node of it), no convergence (names the node with the largest
+/// four times that rounding force over the weight. Throws CanFall for a piece that gravity can carry away,
+/// NumericalError for arrays that do not fit together and no convergence (names the node with the largest
 /// residual, its coordinates and residual).
 EquilibriumResult find_equilibrium(const StaticNet& net, const EquilibriumOptions& options = {});
 

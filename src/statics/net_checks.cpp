@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "base/error.hpp"
+#include "statics/equilibrium.hpp"
 
 namespace cinch::statics {
 namespace {
@@ -13,16 +14,16 @@ namespace {
 void check_arrays(const StaticNet& net) {
   const std::size_t nodes = net.position.size(), elements = net.elements.size();
   if (net.mass.size() != nodes || net.support.size() != nodes || net.axis.size() != nodes)
-    throw NumericalError("static equilibrium: position, mass, support and axis differ in length");
+    throw NumericalError("error: static equilibrium: position, mass, support and axis differ in length");
   if (net.stiffness.size() != elements || net.rest_length.size() != elements)
-    throw NumericalError("static equilibrium: elements, stiffness and rest length differ in length");
+    throw NumericalError("error: static equilibrium: elements, stiffness and rest length differ in length");
 }
 
 void check_nodes(const StaticNet& net) {
   for (std::size_t n = 0; n < net.position.size(); ++n)
     if (!net.position[n].allFinite() || !(net.mass[n] >= 0) ||
         (net.support[n] == Support::guided && !(net.axis[n].norm() > 0)))
-      throw NumericalError("static equilibrium: bad position, mass or axis of " +
+      throw NumericalError("error: static equilibrium: bad position, mass or axis of " +
                            describe(net, net.position, n));
 }
 
@@ -32,7 +33,7 @@ void check_elements(const StaticNet& net) {
     const auto [a, b] = net.elements[e];
     if (a < 0 || b < 0 || a >= end || b >= end || a == b || !(net.stiffness[e] > 0) ||
         !(net.rest_length[e] > 0))
-      throw NumericalError("static equilibrium: bad nodes, stiffness or rest length of element " +
+      throw NumericalError("error: static equilibrium: bad nodes, stiffness or rest length of element " +
                            std::to_string(e));
   }
 }
@@ -79,9 +80,10 @@ void check_supports(const StaticNet& net) {
     }
     if (held || mass * std::abs(way.dot(net.gravity)) <= 1e-12 * mass * net.gravity.norm() * way.norm())
       continue;
-    throw NumericalError("static equilibrium: the piece of " + std::to_string(piece.size()) + " nodes with " +
-                         describe(net, net.position, piece[0]) +
-                         " can fall: it is tied to no fixed node, and no guide holds it against gravity");
+    throw CanFall("error: static equilibrium: the piece of " + std::to_string(piece.size()) + " nodes with " +
+                      describe(net, net.position, piece[0]) +
+                      " can fall: it is tied to no fixed node, and no guide holds it against gravity",
+                  piece[0], piece.size());
   }
 }
 
