@@ -9,37 +9,23 @@ namespace {
 
 constexpr std::size_t at(Index i) { return static_cast<std::size_t>(i); }
 
-// What touches, by the number that tallies keep: an element, or a mass as a sphere.
-std::string label_of(const Preparation& preparation, Index item) {
-  return item < 0 ? node_label(preparation.assembly, kernel::sphere_label(item))
-                  : element_label(preparation, item);
-}
-
-enum class With { ring, target };
-
-std::string label_of(const Preparation& preparation, With with, std::size_t number) {
-  return with == With::ring ? "ring '" + preparation.assembly.rings[number].name + "'"
-                            : "target '" + preparation.assembly.balls[number].name + "'";
-}
-
 template <class Tally>
-void check_stiffness(const Preparation& preparation, With with, std::size_t number, const Tally& tally) {
+void check_stiffness(const Preparation& preparation, bool ring, std::size_t number, const Tally& tally) {
   if (!(tally.stiffest > 1)) return;
   char text[500];
   std::snprintf(
       text, sizeof text,
       "error: at t = %.9g s the contact of %s with %s needed %.3g times what the stable step leaves; "
-      "likely cause: an impact too hard for the time step %.3g s (or an overlap at the start); a step of "
-      "%.2g s would carry it",
-      tally.stiffest_time, label_of(preparation, tally.stiffest_element).c_str(),
-      label_of(preparation, with, number).c_str(), tally.stiffest, preparation.dt,
+      "likely cause: an impact too hard for the time step %.3g s; a step of %.2g s would carry it",
+      tally.stiffest_time, item_label(preparation, tally.stiffest_element).c_str(),
+      partner_label(preparation, ring, number).c_str(), tally.stiffest, preparation.dt,
       preparation.dt / tally.stiffest * 0.9);
   throw NumericalError(text);
 }
 
 // `distance`: at which the thinnest of what touches would be through.
 template <class Tally>
-void check_depth(const Preparation& preparation, const State& state, With with, std::size_t number,
+void check_depth(const Preparation& preparation, const State& state, bool ring, std::size_t number,
                  const Tally& tally, double distance) {
   if (!(tally.max_penetration > pressed_share * distance)) return;
   char text[500];
@@ -48,37 +34,48 @@ void check_depth(const Preparation& preparation, const State& state, With with, 
       "error: at t = %.9g s %s (or a neighbour) is pressed %.3g m into %s, of the %.3g m at which it "
       "would be through; likely cause: a contact too soft for the pull, or a time step too long for "
       "an impact (%.3g s)",
-      static_cast<double>(state.step) * preparation.dt, label_of(preparation, tally.stiffest_element).c_str(),
-      tally.max_penetration, label_of(preparation, with, number).c_str(), distance, preparation.dt);
+      static_cast<double>(state.step) * preparation.dt,
+      item_label(preparation, tally.stiffest_element).c_str(), tally.max_penetration,
+      partner_label(preparation, ring, number).c_str(), distance, preparation.dt);
   throw NumericalError(text);
 }
 
 }  // namespace
 
+std::string item_label(const Preparation& preparation, Index item) {
+  return item < 0 ? node_label(preparation.assembly, kernel::sphere_label(item))
+                  : element_label(preparation, item);
+}
+
+std::string partner_label(const Preparation& preparation, bool ring, std::size_t number) {
+  return ring ? "ring '" + preparation.assembly.rings[number].name + "'"
+              : "target '" + preparation.assembly.balls[number].name + "'";
+}
+
 void check_contacts(const Preparation& preparation, const Model& model, const State& state) {
   for (std::size_t r = 0; r < state.rings.size(); ++r) {
     if (model.slides(r)) continue;
-    check_stiffness(preparation, With::ring, r, state.rings[r]);
-    check_depth(preparation, state, With::ring, r, state.rings[r],
+    check_stiffness(preparation, true, r, state.rings[r]);
+    check_depth(preparation, state, true, r, state.rings[r],
                 model.ring_wire_radius[r] + model.contact_sets[at(model.ring_set[r])].thinnest);
   }
   for (std::size_t b = 0; b < state.balls.size(); ++b)
     for (const kernel::BallTally& tally : state.balls[b]) {
-      check_stiffness(preparation, With::target, b, tally);
-      check_depth(preparation, state, With::target, b, tally, model.balls[b].radius);
+      check_stiffness(preparation, false, b, tally);
+      check_depth(preparation, state, false, b, tally, model.balls[b].radius);
     }
 }
 
 void report_jump(const Preparation& preparation, const State& state, const Jump& jump) {
   const auto with = at(jump.pair.with);
-  const std::string name = label_of(preparation, jump.ring ? With::ring : With::target, with);
+  const std::string name = partner_label(preparation, jump.ring, with);
   const double allowed = jump_share * jump.pair.contact_distance;
   char text[600];
   std::snprintf(
       text, sizeof text,
       "error: at t = %.9g s %s comes towards %s by %.3g m in one step, too far to see it touch (allowed: "
       "%.3g m); likely cause: the time step %.3g s is too long for %.3g m/s; a step of %.2g s would do",
-      static_cast<double>(state.step) * preparation.dt, label_of(preparation, jump.pair.element).c_str(),
+      static_cast<double>(state.step) * preparation.dt, item_label(preparation, jump.pair.element).c_str(),
       name.c_str(), jump.motion, allowed, preparation.dt, jump.motion / preparation.dt,
       0.9 * allowed / jump.motion * preparation.dt);
   throw NumericalError(text);

@@ -6,6 +6,12 @@
 
 namespace cinch {
 
+/// What touches, by the number that tallies keep: an element, or a mass as a sphere.
+std::string item_label(const Preparation& preparation, Index item);
+
+/// What it touches: "ring 'r1'" or "target 'ball'".
+std::string partner_label(const Preparation& preparation, bool ring, std::size_t number);
+
 /// Throws NumericalError when a contact has needed more than the elements leave of the stable step: it would
 /// grow without bound; and for one that is about to be pressed through what it touches.
 void check_contacts(const Preparation& preparation, const Model& model, const State& state);

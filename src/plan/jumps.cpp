@@ -29,6 +29,11 @@ double across(const State& s, const kernel::Pair& pair, plain::V3 other) {
   return greatest;
 }
 
+plain::V3 normal_of(const State& s, const kernel::RingGeometry& ring) {
+  const plain::V3 host = place(s, ring.b) - place(s, ring.a);
+  return plain::norm(host) > 0 ? unit(host) : plain::V3{ring.normal[0], ring.normal[1], ring.normal[2]};
+}
+
 // The motion of a pair within a step, if it is one that could jump; else 0.
 double motion_at_ring(const State& s, const kernel::Pair& pair, const kernel::RingGeometry& ring, double dt) {
   const plain::V3 host = place(s, ring.b) - place(s, ring.a);
@@ -38,12 +43,7 @@ double motion_at_ring(const State& s, const kernel::Pair& pair, const kernel::Ri
   const double turn = length > 0 ? plain::norm(turning) / length * ring.radius : 0;
   const double motion = dt * (across(s, pair, 0.5 * (speed(s, ring.a) + speed(s, ring.b))) + turn);
   if (!(motion > jump_share * pair.contact_distance)) return 0;
-  const plain::V3 normal =
-      length > 0 ? unit(host) : plain::V3{ring.normal[0], ring.normal[1], ring.normal[2]};
-  const plain::V3 center = 0.5 * (place(s, ring.a) + place(s, ring.b));
-  const double distance =
-      plain::segment_circle_exact(place(s, pair.a), place(s, pair.b), center, normal, ring.radius).distance;
-  return distance < pair.contact_distance + motion ? motion : 0;
+  return distance_to_ring(s, pair, ring) < pair.contact_distance + motion ? motion : 0;
 }
 
 double motion_at_ball(const State& s, const kernel::Pair& pair, const Model::Ball& ball, double dt) {
@@ -54,6 +54,13 @@ double motion_at_ball(const State& s, const kernel::Pair& pair, const Model::Bal
 }
 
 }  // namespace
+
+double distance_to_ring(const State& state, const kernel::Pair& pair, const kernel::RingGeometry& ring) {
+  const plain::V3 center = 0.5 * (place(state, ring.a) + place(state, ring.b));
+  return plain::segment_circle_exact(place(state, pair.a), place(state, pair.b), center,
+                                     normal_of(state, ring), ring.radius)
+      .distance;
+}
 
 std::optional<Jump> find_jump(const Model& model, const State& state, const ContactList& contacts,
                               double dt) {

@@ -7,6 +7,7 @@
 #include "plan/health.hpp"
 #include "plan/ledger.hpp"
 #include "plan/memory.hpp"
+#include "plan/overlap.hpp"
 #include "plan/preparation.hpp"
 #include "plan/thread_choice.hpp"
 #include "plan/threading_watch.hpp"
@@ -53,6 +54,8 @@ class Simulation {
   /// All but wall time and status.
   Summary summary();
   MemoryUse memory() const;
+  /// Of contacts that overlap so much where they begin that they decide how the motion begins; else empty.
+  std::string overlap_warning() const;
 
   std::int64_t step() const { return state_.step; }
   double time() const { return static_cast<double>(state_.step) * preparation_.dt; }
@@ -80,8 +83,13 @@ class Simulation {
   void advance_with_threads_that_pay(std::int64_t stop);
   void close();
   void check_health();
+  void find_faults();
   void note_pace();
   void note_losses(const Look& now);
+  void note_overlap(Index first, double energy);
+  bool overlap_decides() const;
+  template <class Check>
+  void blame_overlap(Check check) const;
   void remember();
   [[noreturn]] void find_fault();
   std::vector<Event> all_events() const;
@@ -111,7 +119,9 @@ class Simulation {
   bool has_mouth_ = false, mouth_closed_ = false;
   std::vector<bool> enclosed_;
   ThreadingWatch threadings_;
-  std::vector<Event> events_;  ///< those noted here; contacts are kept in the tallies
+  std::vector<Event> events_;       ///< those noted here; contacts are kept in the tallies
+  std::optional<Overlap> overlap_;  ///< of the contacts that began last without having moved
+  int sound_looks_ = 0;             ///< at energies since then
 };
 
 /// Threads that pay for a scene of this size wherever they run: one for each 8000 elements or so, as below
