@@ -15,6 +15,7 @@
 #include <limits>
 #include <random>
 #include <regex>
+#include <set>
 #include <sstream>
 #include <thread>
 
@@ -718,6 +719,82 @@ TEST(Results, CompareSaysWhichShapesDiffer) {
        {"nodes: 5 in A, 6 in B", "elements: 4 in A, 5 in B", "frames: 3 in A, 2 in B"}) {
     EXPECT_NE(text.str().find(sentence), std::string::npos) << sentence << "\n" << text.str();
   }
+}
+
+// Frames of A at 0, 1/30, 2/30 s; of B at other times but for the first and last.
+TEST(Results, CompareTakesFramesOfTheSameTime) {
+  const Scratch scratch;
+  const ResultModel model = small_model(5);
+  record(scratch.path / "a", model, 3);
+  record(scratch.path / "b", model, 3, false, [](Frame& frame) {
+    if (frame.step == 1007) frame.time = 0.05, frame.position[0].x() += 5;
+  });
+  const Comparison comparison = compared(scratch.path / "a", scratch.path / "b");
+  EXPECT_FALSE(comparison.identical);
+  EXPECT_EQ(comparison.frames_compared, 2);
+  EXPECT_TRUE(comparison.fields.empty()) << comparison.fields.front().field;
+  std::ostringstream text;
+  print_comparison(comparison, text);
+  EXPECT_NE(text.str().find("1 frames of A and 1 of B have no partner of the same time"), std::string::npos)
+      << text.str();
+}
+
+// A finer run: its middle frames have no partner, the others are found all the same.
+TEST(Results, CompareFindsPartnersInAFinerRun) {
+  const Scratch scratch;
+  const ResultModel model = small_model(5);
+  record(scratch.path / "a", model, 3);
+  record(scratch.path / "b", model, 5, false, [](Frame& frame) { frame.time /= 2; });
+  const Comparison comparison = compared(scratch.path / "a", scratch.path / "b");
+  EXPECT_EQ(comparison.frames_compared, 3);
+  std::ostringstream text;
+  print_comparison(comparison, text);
+  EXPECT_NE(text.str().find("0 frames of A and 2 of B have no partner"), std::string::npos) << text.str();
+}
+
+TEST(Results, CompareOfOtherMeshesLeavesNodesOut) {
+  const Scratch scratch;
+  ResultModel model = small_model(5);
+  record(scratch.path / "a", model, 2);
+  model = small_model(6);
+  std::swap(model.rings[0], model.rings[1]);  // found by name
+  record(scratch.path / "b", model, 2, false, [](Frame& frame) {
+    std::swap(frame.ring_center[0], frame.ring_center[1]);
+    std::swap(frame.ring_normal[0], frame.ring_normal[1]);
+    std::swap(frame.ring_force[0], frame.ring_force[1]);
+    frame.energy.kinetic += 1;
+  });
+  const Comparison comparison = compared(scratch.path / "a", scratch.path / "b");
+  std::vector<std::string> fields;
+  for (const FieldDifference& field : comparison.fields) fields.push_back(field.field);
+  EXPECT_EQ(fields, std::vector<std::string>{"energy kinetic"});
+  std::ostringstream text;
+  print_comparison(comparison, text);
+  EXPECT_NE(text.str().find("note: the meshes differ: fields of nodes and elements cannot be compared"),
+            std::string::npos)
+      << text.str();
+}
+
+TEST(Results, CompareKeepsItsColumns) {
+  const Scratch scratch;
+  ResultModel model = small_model(5);
+  model.probes[0].name = std::string(60, 'n');
+  for (const char* name : {"a", "b"}) {
+    Recorder recorder(scratch.path / name, model, {});
+    Frame frame = small_frame(model, 0);
+    std::vector<double> row = probe_row(0);
+    if (*name == 'b') frame.position[0].x() += 1, row[0] += 1;
+    recorder.probes(0, row);
+    recorder.frame(frame);
+  }
+  std::ostringstream text;
+  print_comparison(compared(scratch.path / "a", scratch.path / "b"), text);
+  std::istringstream lines(text.str());
+  std::set<std::size_t> columns;
+  for (std::string line; std::getline(lines, line);)
+    for (const char* last : {" first differs", " frame 0 (t", " row 0 (t"})
+      if (const auto place = line.find(last); place != std::string::npos) columns.insert(place);
+  EXPECT_EQ(columns.size(), 1u) << text.str();
 }
 
 TEST(Results, CompareSeesOtherEndsOfElements) {

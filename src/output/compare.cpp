@@ -18,6 +18,39 @@ using std::string;
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
+// Which entries of two ascending lists of times are of one and the same time: those nearest to each other, no
+// farther apart than `slack`, s (samples are taken at the step nearest to their time).
+struct Partners {
+  std::vector<std::pair<int, int>> pairs;
+  size_t alone_a, alone_b;
+
+  Partners(const std::vector<double>& a, const std::vector<double>& b, double slack) {
+    size_t i = 0, j = 0;
+    while (i < a.size() && j < b.size()) {
+      const double apart = std::abs(a[i] - b[j]);
+      if (i + 1 < a.size() && std::abs(a[i + 1] - b[j]) < apart) ++i;
+      else if (j + 1 < b.size() && std::abs(a[i] - b[j + 1]) < apart) ++j;
+      else if (apart <= slack) pairs.emplace_back(static_cast<int>(i++), static_cast<int>(j++));
+      else if (a[i] < b[j]) ++i;
+      else ++j;
+    }
+    alone_a = a.size() - pairs.size();
+    alone_b = b.size() - pairs.size();
+  }
+};
+
+// Which entries of two lists have the same name.
+template <class Item>
+std::vector<std::pair<size_t, size_t>> same_names(const std::vector<Item>& a, const std::vector<Item>& b) {
+  std::map<string, size_t> places;
+  for (size_t j = 0; j < b.size(); ++j) places.emplace(b[j].name, j);
+  std::vector<std::pair<size_t, size_t>> pairs;
+  for (size_t i = 0; i < a.size(); ++i)
+    if (const auto found = places.find(a[i].name); found != places.end())
+      pairs.emplace_back(i, found->second);
+  return pairs;
+}
+
 /// Follows one field through both runs.
 struct Meter {
   FieldDifference difference;
@@ -58,20 +91,28 @@ class Comparer {
             double time = kNan);
   void vectors(const string& field, const string& unit, const std::vector<Vec3>& a,
                const std::vector<Vec3>& b, int frame = -1, double time = kNan);
-  void series(const string& field, const string& unit, const std::vector<double>& times,
-              const std::vector<double>& a, const std::vector<double>& b);
+  void series(const string& field, const string& unit, const Partners& partners,
+              const std::vector<double>& times, const std::vector<double>& a, const std::vector<double>& b);
   void models();
+  void meshes();
+  void elements();
   void bodies();
+  double slack() const { return 0.5 * (a_.model().time_step + b_.model().time_step); }
+  void partners_lacking(const string& what, const Partners& partners);
   void frames();
-  void frame(int k);
+  void frame(int k, int l);
+  void mesh_frame(const Frame& a, const Frame& b, int k);
+  void ring_frame(const Frame& a, const Frame& b, int k);
   void probes();
   void summaries();
   void events(const Summary& a, const Summary& b);
-  void rings(const Summary& a, const Summary& b);
+  void rings(const Summary& a, const Summary& b, bool to_the_end);
   void collect();
 
   const Result &a_, &b_;
   Comparison out_;
+  bool same_mesh_ = true;
+  std::vector<std::pair<size_t, size_t>> rings_;  // of the same name
   std::map<string, size_t> index_;
   std::vector<Meter> meters_;  // in the order in which the fields were met
 };
@@ -116,11 +157,13 @@ void Comparer::vectors(const string& field, const string& unit, const std::vecto
   for (size_t i = 0; i < std::min(x.size(), y.size()); ++i) gauge.pair(x[i], y[i], frame, time, i / 3);
 }
 
-void Comparer::series(const string& field, const string& unit, const std::vector<double>& times,
-                      const std::vector<double>& a, const std::vector<double>& b) {
+void Comparer::series(const string& field, const string& unit, const Partners& partners,
+                      const std::vector<double>& times, const std::vector<double>& a,
+                      const std::vector<double>& b) {
   Meter& gauge = meter(field, unit);
-  for (size_t i = 0; i < std::min(a.size(), b.size()); ++i) {
-    gauge.pair(a[i], b[i], static_cast<int>(i), i < times.size() ? times[i] : kNan, 0);
+  for (const auto& [k, l] : partners.pairs) {
+    const auto i = static_cast<size_t>(k), j = static_cast<size_t>(l);
+    if (i < a.size() && j < b.size()) gauge.pair(a[i], b[j], k, times[i], 0);
   }
 }
 
@@ -139,61 +182,100 @@ void Comparer::models() {
   note("instruction set", a.isa, b.isa);
   note("threads", text(a.threads), text(b.threads));
   if (a.case_toml != b.case_toml) out_.notes.push_back("the resolved case texts differ");
-  same("nodes", a.node_mass.size(), b.node_mass.size());
-  if (same("elements", a.elements.size(), b.elements.size()) && a.elements != b.elements) {
-    differ("the elements join different nodes");
-  }
-  if (names_of(a.parts) != names_of(b.parts)) differ("the parts have different names");
+  meshes();
   if (a.closing_time.has_value() != b.closing_time.has_value()) differ("only one of them has a closing time");
   list("time step", "s", std::vector{a.time_step}, std::vector{b.time_step});
   list("closing time", "s", std::vector{a.closing_time.value_or(0)}, std::vector{b.closing_time.value_or(0)});
+  if (same_mesh_) elements();
+  bodies();
+}
+
+// Numbers of nodes and elements mean the same places in like meshes alone.
+void Comparer::meshes() {
+  const ResultModel &a = a_.model(), &b = b_.model();
+  const bool nodes = same("nodes", a.node_mass.size(), b.node_mass.size());
+  const bool elements = same("elements", a.elements.size(), b.elements.size());
+  const bool ends = !elements || a.elements == b.elements, parts = names_of(a.parts) == names_of(b.parts);
+  if (!ends) differ("the elements join different nodes");
+  if (!parts) differ("the parts have different names");
+  same_mesh_ = nodes && elements && ends && parts;
+  if (!same_mesh_)
+    out_.notes.push_back(
+        "the meshes differ: fields of nodes and elements cannot be compared; rings and probes of the same "
+        "name and "
+        "energies are");
+}
+
+void Comparer::elements() {
+  const ResultModel &a = a_.model(), &b = b_.model();
   list("node mass", "kg", a.node_mass, b.node_mass);
   list("rest length", "m", a.rest_length, b.rest_length);
   list("element radius", "m", a.element_radius, b.element_radius);
   list("element part", "", a.element_part, b.element_part);
-  bodies();
 }
 
 void Comparer::bodies() {
   const ResultModel &a = a_.model(), &b = b_.model();
-  if (same("rings", a.rings.size(), b.rings.size())) {
-    if (names_of(a.rings) != names_of(b.rings)) differ("the rings have different names");
-    for (size_t i = 0; i < a.rings.size(); ++i) {
-      meter("ring radius", "m").pair(a.rings[i].radius, b.rings[i].radius, -1, kNan, i);
-      meter("ring wire radius", "m").pair(a.rings[i].wire_radius, b.rings[i].wire_radius, -1, kNan, i);
-    }
+  if (same("rings", a.rings.size(), b.rings.size()) && names_of(a.rings) != names_of(b.rings))
+    differ("the rings have different names");
+  rings_ = same_names(a.rings, b.rings);
+  for (const auto& [i, j] : rings_) {
+    meter("ring radius", "m").pair(a.rings[i].radius, b.rings[j].radius, -1, kNan, i);
+    meter("ring wire radius", "m").pair(a.rings[i].wire_radius, b.rings[j].wire_radius, -1, kNan, i);
   }
-  if (same("balls", a.balls.size(), b.balls.size())) {
-    for (size_t i = 0; i < a.balls.size(); ++i) {
-      meter("ball radius", "m").pair(a.balls[i].radius, b.balls[i].radius, -1, kNan, i);
-      vectors("ball center", "m", {a.balls[i].center}, {b.balls[i].center});
-    }
+  if (same("balls", a.balls.size(), b.balls.size()) && names_of(a.balls) != names_of(b.balls))
+    differ("the balls have different names");
+  for (const auto& [i, j] : same_names(a.balls, b.balls)) {
+    meter("ball radius", "m").pair(a.balls[i].radius, b.balls[j].radius, -1, kNan, i);
+    vectors("ball center", "m", {a.balls[i].center}, {b.balls[j].center});
   }
+}
+
+void Comparer::partners_lacking(const string& what, const Partners& partners) {
+  if (partners.alone_a + partners.alone_b > 0)
+    differ(text(partners.alone_a) + " " + what + " of A and " + text(partners.alone_b) +
+           " of B have no partner of the same time");
 }
 
 void Comparer::frames() {
   same("frames", a_.frames(), b_.frames());
-  out_.frames_compared = std::min(a_.frames(), b_.frames());
-  for (int k = 0; k < out_.frames_compared; ++k) frame(k);
+  const Partners partners(a_.frame_times(), b_.frame_times(), slack());
+  partners_lacking("frames", partners);
+  out_.frames_compared = static_cast<int>(partners.pairs.size());
+  for (const auto& [k, l] : partners.pairs) frame(k, l);
 }
 
-void Comparer::frame(int k) {
-  const Frame a = a_.frame(k), b = b_.frame(k);
+void Comparer::frame(int k, int l) {
+  const Frame a = a_.frame(k), b = b_.frame(l);
+  list("time", "s", std::vector{a.time}, std::vector{b.time}, k, a.time);
+  list("step", "", std::vector{a.step}, std::vector{b.step}, k, a.time);
+  if (same_mesh_) mesh_frame(a, b, k);
+  ring_frame(a, b, k);
+  const auto x = a.energy.values(), y = b.energy.values();
+  for (size_t i = 0; i < x.size(); ++i) {
+    meter("energy " + Energies::names()[i], "J").pair(x[i], y[i], k, a.time, 0);
+  }
+}
+
+void Comparer::mesh_frame(const Frame& a, const Frame& b, int k) {
   const double t = a.time;
-  list("time", "s", std::vector{a.time}, std::vector{b.time}, k, t);
-  list("step", "", std::vector{a.step}, std::vector{b.step}, k, t);
   vectors("position", "m", a.position, b.position, k, t);
   vectors("velocity", "m/s", a.velocity, b.velocity, k, t);
   vectors("contact force", "N", a.contact_force, b.contact_force, k, t);
   list("tension", "N", a.tension, b.tension, k, t);
   list("strain", "", a.strain, b.strain, k, t);
   list("active", "", a.active, b.active, k, t);
-  vectors("ring center", "m", a.ring_center, b.ring_center, k, t);
-  vectors("ring normal", "", a.ring_normal, b.ring_normal, k, t);
-  vectors("ring force", "N", a.ring_force, b.ring_force, k, t);
-  const auto x = a.energy.values(), y = b.energy.values();
-  for (size_t i = 0; i < x.size(); ++i) {
-    meter("energy " + Energies::names()[i], "J").pair(x[i], y[i], k, t, 0);
+}
+
+void Comparer::ring_frame(const Frame& a, const Frame& b, int k) {
+  const auto vector = [&](const char* field, const char* unit, const Vec3& x, const Vec3& y, size_t ring) {
+    Meter& gauge = meter(field, unit);
+    for (int d = 0; d < 3; ++d) gauge.pair(x[d], y[d], k, a.time, ring);
+  };
+  for (const auto& [i, j] : rings_) {
+    vector("ring center", "m", a.ring_center[i], b.ring_center[j], i);
+    vector("ring normal", "", a.ring_normal[i], b.ring_normal[j], i);
+    vector("ring force", "N", a.ring_force[i], b.ring_force[j], i);
   }
 }
 
@@ -202,10 +284,12 @@ void Comparer::probes() {
   if (a != b) differ("the probe columns differ (" + text(a.size()) + " in A, " + text(b.size()) + " in B)");
   const auto times = a_.probe_times(), others = b_.probe_times();
   same("probe rows", times.size(), others.size());
-  series("probe time", "s", times, times, others);
+  const Partners partners(times, others, slack());
+  partners_lacking("probe rows", partners);
+  series("probe time", "s", partners, times, times, others);
   for (const auto& probe : a_.model().probes) {
     if (!b_.has_probe(probe.name)) continue;
-    series("probe " + probe.name, probe.unit, times, a_.probe(probe.name), b_.probe(probe.name));
+    series("probe " + probe.name, probe.unit, partners, times, a_.probe(probe.name), b_.probe(probe.name));
   }
 }
 
@@ -221,12 +305,14 @@ void Comparer::events(const Summary& a, const Summary& b) {
   }
 }
 
-void Comparer::rings(const Summary& a, const Summary& b) {
+// Peaks are those of whole runs.
+void Comparer::rings(const Summary& a, const Summary& b, bool to_the_end) {
   same("ring records", a.ring_records.size(), b.ring_records.size());
-  for (size_t i = 0; i < std::min(a.ring_records.size(), b.ring_records.size()); ++i) {
-    const RingRecord &x = a.ring_records[i], &y = b.ring_records[i];
+  for (const auto& [i, j] : same_names(a.ring_records, b.ring_records)) {
+    const RingRecord &x = a.ring_records[i], &y = b.ring_records[j];
     meter("ring first contact time", "s").pair(x.first_contact_time, y.first_contact_time, -1, kNan, i);
     meter("ring first contact force", "N").pair(x.first_contact_force, y.first_contact_force, -1, kNan, i);
+    if (!to_the_end) continue;
     meter("ring peak force", "N").pair(x.peak_force, y.peak_force, -1, kNan, i);
     meter("ring peak time", "s").pair(x.peak_time, y.peak_time, -1, kNan, i);
   }
@@ -241,10 +327,16 @@ void Comparer::summaries() {
   same("status", a->status, b->status);
   list("steps", "", std::vector{a->steps}, std::vector{b->steps});
   list("simulated time", "s", std::vector{a->simulated_seconds}, std::vector{b->simulated_seconds});
-  list("final energy", "J", a->energy.values(), b->energy.values());
-  list("largest penetration", "m", std::vector{a->max_penetration}, std::vector{b->max_penetration});
+  const bool to_the_end = std::abs(a->simulated_seconds - b->simulated_seconds) <= slack();
+  if (to_the_end) {
+    list("final energy", "J", a->energy.values(), b->energy.values());
+    list("largest penetration", "m", std::vector{a->max_penetration}, std::vector{b->max_penetration});
+  } else {
+    out_.notes.push_back(
+        "they end at different times: final energies, peaks and penetration are not compared");
+  }
   events(*a, *b);
-  rings(*a, *b);
+  rings(*a, *b, to_the_end);
 }
 
 void Comparer::collect() {
@@ -274,16 +366,32 @@ string hash_text(const std::optional<std::uint64_t>& hash) {
   return out;
 }
 
-void print_field(const FieldDifference& field, std::ostream& out) {
-  char line[256];
-  std::snprintf(line, sizeof line, "  %-26s %10zu  %11.3e %-6s %10.2e  ", field.field.c_str(), field.values,
-                field.absolute, field.unit.c_str(), field.relative);
-  out << line;
+// Columns as wide as what stands in them.
+struct Widths {
+  int field = 26, unit = 6;
+  explicit Widths(const std::vector<FieldDifference>& fields) {
+    for (const FieldDifference& item : fields) {
+      field = std::max(field, static_cast<int>(item.field.size()));
+      unit = std::max(unit, static_cast<int>(item.unit.size()));
+    }
+  }
+};
+
+template <class... Values>
+string formatted(const char* format, Values... values) {
+  const int length = std::snprintf(nullptr, 0, format, values...);
+  string out(static_cast<size_t>(length) + 1, '\0');
+  std::snprintf(out.data(), out.size(), format, values...);
+  out.pop_back();
+  return out;
+}
+
+void print_field(const FieldDifference& field, const Widths& width, std::ostream& out) {
+  out << formatted("  %-*s %10zu  %11.3e %-*s %10.2e  ", width.field, field.field.c_str(), field.values,
+                   field.absolute, width.unit, field.unit.c_str(), field.relative);
   if (field.first_frame >= 0) {
     const bool row = field.field.rfind("probe ", 0) == 0;
-    std::snprintf(line, sizeof line, "%s %d (t = %.9g s), ", row ? "row" : "frame", field.first_frame,
-                  field.first_time);
-    out << line;
+    out << formatted("%s %d (t = %.9g s), ", row ? "row" : "frame", field.first_frame, field.first_time);
   }
   out << "index " << field.first_index << '\n';
 }
@@ -294,6 +402,7 @@ Comparison compare_results(const Result& a, const Result& b) { return Comparer(a
 
 void print_comparison(const Comparison& comparison, std::ostream& out) {
   const Comparison& c = comparison;
+  const Widths width(c.fields);
   out << (c.identical ? "identical" : "different") << ": " << c.frames_compared << " frames, "
       << c.values_compared << " values compared bit by bit\n";
   if (c.hash_a == c.hash_b) {
@@ -303,12 +412,10 @@ void print_comparison(const Comparison& comparison, std::ostream& out) {
   }
   for (const string& sentence : c.shape) out << "  " << sentence << '\n';
   if (!c.fields.empty()) {
-    char head[256];
-    std::snprintf(head, sizeof head, "  %-26s %10s  %18s %10s  %s\n", "field", "values", "largest difference",
-                  "relative", "first differs");
-    out << head;
+    out << formatted("  %-*s %10s  %*s %10s  %s\n", width.field, "field", "values", 12 + width.unit,
+                     "largest difference", "relative", "first differs");
   }
-  for (const FieldDifference& field : c.fields) print_field(field, out);
+  for (const FieldDifference& field : c.fields) print_field(field, width, out);
   for (const string& note : c.notes) out << "  note: " << note << '\n';
 }
 

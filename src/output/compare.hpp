@@ -34,8 +34,9 @@ struct Comparison {
   std::optional<std::uint64_t> hash_a, hash_b;  ///< of the final state; absent where a run did not end
 };
 
-/// Compares every frame, energy term, probe column, event, ring record and the state hash. Wall times,
-/// threads, instruction set, compiler and case text may differ. Throws FileError when a file cannot be read.
+/// Compares frames and probe rows of the same time, events, ring records and the state hash; rings and probes
+/// by name, nodes and elements only where the meshes are alike. Wall times, threads, instruction set,
+/// compiler and case text may differ. Throws FileError when a file cannot be read.
 Comparison compare_results(const Result& a, const Result& b);
 
 /// "identical: 41 frames, ..." or the list of differences.
