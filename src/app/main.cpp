@@ -1,6 +1,9 @@
 // The program `cinch`: reads the command line and calls one command.
 #include <CLI/CLI.hpp>
+#include <cerrno>
+#include <cstdio>
 #include <iostream>
+#include <system_error>
 
 #include "app/commands.hpp"
 #include "base/error.hpp"
@@ -39,6 +42,11 @@ CLI::Option* add_case(CLI::App& command, Options& options) {
   return file;
 }
 
+// A flag that is there or not: --error=0.01 would be taken for "no" without a word.
+CLI::Option* add_switch(CLI::App& command, const std::string& name, bool& value, const std::string& words) {
+  return command.add_flag(name, value, words)->disable_flag_override();
+}
+
 struct Commands {
   CLI::App *run, *check, *info, *report, *compare;
 };
@@ -61,14 +69,15 @@ Commands define(CLI::App& app, Options& options) {
   c.run->final_callback([&options] {
     if (options.run.scene.file.empty() && options.run.restart.empty()) throw CLI::RequiredError("CASE");
   });
-  c.run->add_option("--out", options.run.out, "folder for the results (default: results/NAME)");
-  c.run->add_flag("--overwrite", options.run.overwrite, "replace a result that is there already");
-  c.run->add_flag("--quiet", options.run.quiet, "no progress, no verdict");
+  c.run->add_option("--out", options.run.out,
+                    "folder for the results (default: results/NAME, or the first free results/NAME-K)");
+  add_switch(*c.run, "--overwrite", options.run.overwrite, "replace a result that is there already");
+  add_switch(*c.run, "--quiet", options.run.quiet, "no progress, no verdict");
   add_case(*c.check, options)->required();
-  c.check->add_flag("--resolved", options.check.resolved, "print the case with every default written out");
-  CLI::Option* const error = c.check->add_flag(
-      "--error", options.check.error,
-      "run the case and finer ones beside it (eight times its run time): how far it is from them");
+  add_switch(*c.check, "--resolved", options.check.resolved, "print the case with every default written out");
+  CLI::Option* const error =
+      add_switch(*c.check, "--error", options.check.error,
+                 "run the case and finer ones beside it (eight times its run time): how far it is from them");
   c.check->add_option("--runs", options.check.runs, "runs of each whose means are compared (default: 1)")
       ->check(CLI::Range(1, 1000))
       ->needs(error);
@@ -85,15 +94,36 @@ Commands define(CLI::App& app, Options& options) {
   return c;
 }
 
-// CLI11 only says that a sub-command is required; name the nearest one.
-void hint_at_command(const CLI::App& app, int argc, char** argv) {
-  if (argc < 2 || argv[1][0] == '-') return;
+// "--error=0.01" where a word of the command line gives a value to a flag: CLI11 says little of it, and
+// nothing of "--error=true".
+std::string switch_with_value(const CLI::App& app, int argc, char** argv) {
+  for (int i = 1; i < argc; ++i) {
+    const std::string word = argv[i], name = word.substr(0, word.find('='));
+    if (name == word) continue;
+    for (const CLI::App* command : app.get_subcommands())
+      for (const CLI::Option* option : command->get_options())
+        if (option->check_name(name) && option->get_disable_flag_override()) return word;
+  }
+  return "";
+}
+
+// What is wrong with the command line. CLI11 only says that a sub-command is required: name the nearest one.
+std::string usage_error(const CLI::App& app, const CLI::ParseError& error, int argc, char** argv) {
+  if (const std::string word = switch_with_value(app, argc, argv); !word.empty())
+    return word + ": " + word.substr(0, word.find('=')) + " takes no value";
+  if (argc < 2 || argv[1][0] == '-') return error.what();
   std::vector<std::string> names;
   for (const CLI::App* command : app.get_subcommands(nullptr)) names.push_back(command->get_name());
-  if (std::find(names.begin(), names.end(), argv[1]) != names.end()) return;
+  if (std::find(names.begin(), names.end(), argv[1]) != names.end()) return error.what();
   const std::string nearest = cinch::nearest_key(argv[1], names);
-  std::cerr << "error: unknown command '" << argv[1] << "'"
-            << (nearest.empty() ? std::string() : "; did you mean '" + nearest + "'?") << "\n";
+  return "unknown command '" + std::string(argv[1]) + "'" +
+         (nearest.empty() ? "; allowed: " + cinch::list_of(names) : "; did you mean '" + nearest + "'?");
+}
+
+// Messages that name a place in a file hold the word behind it.
+void print_error(const std::string& message) {
+  const std::string first = message.substr(0, message.find('\n'));
+  std::cerr << (first.find("error: ") == std::string::npos ? "error: " : "") << message << "\n";
 }
 
 int dispatch(const Commands& c, Options& options) {
@@ -105,27 +135,44 @@ int dispatch(const Commands& c, Options& options) {
   return cinch::app::compare(options.results[0], options.results[1]);
 }
 
-}  // namespace
-
-int main(int argc, char** argv) {
+int parse_and_dispatch(int argc, char** argv) {
   CLI::App app{"Cinch: dynamics of tether-nets that capture space debris"};
   Options options;
   const Commands commands = define(app, options);
   try {
     app.parse(argc, argv);
+    if (const std::string word = switch_with_value(app, argc, argv); !word.empty())
+      throw CLI::ArgumentMismatch(word);
   } catch (const CLI::ParseError& error) {
     if (error.get_exit_code() == 0) return app.exit(error);  // --help, --version
-    hint_at_command(app, argc, argv);
-    app.exit(error);
+    print_error(usage_error(app, error, argc, argv));
+    std::cerr << "    cinch --help, or cinch COMMAND --help, says what is allowed\n";
     return static_cast<int>(cinch::ExitCode::usage);
   }
   try {
     return dispatch(commands, options);
   } catch (const cinch::Error& error) {
-    std::cerr << error.what() << "\n";
+    print_error(error.what());
     return static_cast<int>(error.code);
   } catch (const std::exception& error) {
     std::cerr << "internal error: " << error.what() << "\n";
     return static_cast<int>(cinch::ExitCode::internal);
   }
 }
+
+// What was printed may not have arrived: a full disk behind standard output. A run that failed or was stopped
+// tells that first.
+int code_with_output(int code) {
+  std::cout.flush();
+  errno = 0;
+  if (std::fflush(stdout) == 0 && std::ferror(stdout) == 0 && std::cout) return code;
+  print_error("standard output: cannot write" +
+              (errno != 0 ? ": " + std::generic_category().message(errno) : std::string()));
+  const bool worked =
+      code == static_cast<int>(cinch::ExitCode::done) || code == static_cast<int>(cinch::ExitCode::different);
+  return worked ? static_cast<int>(cinch::ExitCode::input_output) : code;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) { return code_with_output(parse_and_dispatch(argc, argv)); }
