@@ -231,6 +231,18 @@ TEST(ErrorEstimate, KnowsWhatIsByChance) {
   EXPECT_TRUE(row.by_chance());
 }
 
+// Where all is small a bound says more than that it is by chance: twice what each difference may be.
+TEST(ErrorEstimate, BoundsWhatIsSmall) {
+  ErrorEstimate::Row row;
+  row.size = 2;
+  row.difference = {1e-4, 2e-4, 3e-4};
+  EXPECT_TRUE(row.by_chance());
+  EXPECT_DOUBLE_EQ(row.bound(), 2 * (1e-4 + 2 * 3e-4 + 2e-4 + 2 * 3e-4));
+  EXPECT_TRUE(row.bounded());
+  row.size = 0.2;
+  EXPECT_FALSE(row.bounded());
+}
+
 // Means of several runs differ less by chance than single ones.
 TEST(ErrorEstimate, MoreRunsLeaveLessToChance) {
   const auto chance = [](int runs) {

@@ -26,10 +26,14 @@ struct ErrorEstimate {
 
     /// What errors of first order would be: twice the differences that halving step and elements makes.
     double error() const { return 2 * (difference[of_step] + difference[of_threads]); }
-    /// Whether chance makes up half of both differences: more runs would tell more.
+    /// Whether chance would make half or more of both differences: more runs would tell more.
     bool by_chance() const {
       return 4 * difference[of_chance] > difference[of_step] + difference[of_threads];
     }
+    /// A bound where by_chance(): each of both differences may hide twice as much as chance makes.
+    double bound() const { return error() + 8 * difference[of_chance]; }
+    /// Whether that bound says enough: 1 %, what the defaults aim at.
+    bool bounded() const { return bound() <= 0.01 * size; }
   };
   std::vector<Row> rows;
   std::vector<std::string> stopped;  ///< what stopped runs beside the case's own
