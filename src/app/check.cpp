@@ -7,6 +7,8 @@
 #include "app/error_table.hpp"
 #include "app/progress.hpp"
 #include "base/error.hpp"
+#include "input/nearest_key.hpp"
+#include "plan/case_warnings.hpp"
 #include "plan/simulation.hpp"
 
 namespace cinch::app {
@@ -29,6 +31,22 @@ void print_counts(const Scene& scene, const Preparation& p) {
                 static_cast<double>(p.closing_step) * p.dt,
                 static_cast<Index>(p.assembly.nodes.size()) - p.assembly.nodes_before,
                 static_cast<Index>(p.assembly.elements.size()) - p.assembly.elements_before);
+}
+
+// Which rings slide on threads, and which feel contact with their wire: an automatic joint chooses unasked.
+void print_joints(const Assembly& assembly) {
+  std::vector<std::string> sliding, contact, missed;
+  for (const AssemblyRing& ring : assembly.rings)
+    (ring.missed ? missed : ring.threadings.empty() ? contact : sliding).push_back(ring.name);
+  const char* label = "joints";
+  const auto print = [&](const char* kind, const std::vector<std::string>& names) {
+    if (names.empty()) return;
+    std::printf("%-16s %s: %s\n", label, kind, list_of(names, 16).c_str());
+    label = "";
+  };
+  print("sliding", sliding);
+  print("contact", contact);
+  print("contact, as no thread passes through", missed);
 }
 
 void print_step(const Scene& scene, const Preparation& p) {
@@ -60,6 +78,7 @@ struct Trial {
   double seconds = 0;   // that the whole run takes
   int threads = 0;      // 0: not even the start was possible
   std::string problem;  // what stopped it
+  std::string overlap;  // a warning
 };
 
 double seconds_per_step(Simulation& s) {
@@ -84,6 +103,24 @@ void try_phase(Simulation& s, double steps, std::size_t besides, Trial& trial) {
   trial.seconds += seconds_per_step(s) * steps;
 }
 
+// Closing at once gives the second phase's work without the wait.
+void try_closing(Scene scene, int threads, double steps, std::size_t besides, Trial& trial) {
+  scene.closing.time = 0;
+  const auto attempt = [&] {
+    Simulation rest(scene, step_by_step(prepare(scene)), threads);
+    try_phase(rest, steps, besides, trial);
+  };
+  try {
+    return attempt();
+  } catch (const NumericalError&) {
+    // what is stowed may lie in each other's way, as it does not when it closes
+    for (Net& net : scene.nets) net.stowed_factor = 1;
+    for (Mechanism& mechanism : scene.mechanisms) mechanism.initial_stretch = 1;
+    scene.targets.clear();
+  }
+  attempt();
+}
+
 Trial try_out(const Scene& scene, int threads, Preparation p) {
   Trial trial;
   const bool two = p.phases.size() > 1;
@@ -92,14 +129,11 @@ Trial try_out(const Scene& scene, int threads, Preparation p) {
   try {
     {
       Simulation begin(scene, step_by_step(std::move(p)), threads);  // at first much is slack
+      trial.overlap = begin.overlap_warning();
       try_phase(begin, static_cast<double>(first), 0, trial);
+      begin.check_energy(begin.look());
     }
-    if (two && end > first) {
-      Scene closing = scene;  // closing at once gives the second phase's work without the wait
-      closing.closing.time = 0;
-      Simulation rest(closing, step_by_step(prepare(closing)), threads);
-      try_phase(rest, static_cast<double>(end - first), first_model, trial);
-    }
+    if (two && end > first) try_closing(scene, threads, static_cast<double>(end - first), first_model, trial);
   } catch (const NumericalError& error) {  // a valid case whose motion goes wrong at once: worth knowing
     trial.problem = error.what();
   }
@@ -120,8 +154,7 @@ void print_memory(std::size_t start, std::size_t frame, const MemoryUse& use) {
 
 void print_expected_time(const Scene& scene, const Trial& trial) {
   if (!trial.problem.empty()) {
-    std::printf("expected time    unknown, the trial of some thousand steps stopped: %s\n",
-                trial.problem.c_str());
+    std::printf("expected time    unknown, the trial of some thousand steps stopped\n");
     return;
   }
   std::printf("threads          %d\n", trial.threads);
@@ -129,6 +162,19 @@ void print_expected_time(const Scene& scene, const Trial& trial) {
       "expected time    about %s (h:)min:s, %.3g min per simulated second, from a trial of some thousand "
       "steps\n",
       clock_text(trial.seconds).c_str(), trial.seconds / 60 / scene.time.end);
+}
+
+// The exit code: that of a run, where the trial stopped like one.
+int print_verdict(const Trial& trial) {
+  if (trial.problem.empty()) {
+    std::printf("the case is valid\n");
+    return static_cast<int>(ExitCode::done);
+  }
+  const std::string prefix = "error: ";
+  const bool has = trial.problem.starts_with(prefix);
+  std::printf("the case is valid, but its trial stopped: %s\n",
+              trial.problem.c_str() + (has ? prefix.size() : 0));
+  return static_cast<int>(ExitCode::numerical);
 }
 
 void check_error(const Scene& scene, const ErrorRuns& runs) {
@@ -146,7 +192,9 @@ int check(const CaseArguments& arguments, const CheckOptions& options) {
     return 0;
   }
   Preparation p = prepare(scene);
+  std::vector<std::string> warnings = case_warnings(scene, p);
   print_counts(scene, p);
+  print_joints(p.assembly);
   print_step(scene, p);
   print_stages(p);
   print_output(scene, p);
@@ -155,9 +203,12 @@ int check(const CaseArguments& arguments, const CheckOptions& options) {
   const Trial trial = try_out(scene, arguments.threads, std::move(p));
   if (trial.threads > 0) print_memory(start, frame, trial.memory);
   print_expected_time(scene, trial);
-  std::printf("the case is valid\n");
-  if (options.error) check_error(scene, {options.runs, arguments.threads});
-  return 0;
+  if (trial.problem.empty() && !trial.overlap.empty()) warnings.push_back("warning: " + trial.overlap);
+  std::fflush(stdout);
+  for (const std::string& warning : warnings) std::cerr << warning << "\n";
+  const int code = print_verdict(trial);
+  if (options.error && code == 0) check_error(scene, {options.runs, arguments.threads});
+  return code;
 }
 
 }  // namespace cinch::app

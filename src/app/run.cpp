@@ -19,6 +19,7 @@
 #include "output/recorder.hpp"
 #include "output/result_layout.hpp"
 #include "output/result_reader.hpp"
+#include "plan/case_warnings.hpp"
 #include "plan/simulation.hpp"
 #include "report/report.hpp"
 
@@ -73,6 +74,11 @@ class Run {
     if (from == nullptr) return;
     frames_.due(simulation_.step());
     probes_.due(simulation_.step());
+  }
+
+  void warn() const {
+    for (const std::string& warning : case_warnings(scene_, simulation_.preparation()))
+      std::cerr << warning << "\n";
   }
 
   Summary go() {
@@ -196,6 +202,8 @@ class Run {
     summary.status = status;
     summary.message = message;
     if (status != "failed") summary.history.clear();
+    if (const std::string overlap = simulation_.overlap_warning(); status != "failed" && !overlap.empty())
+      summary.warnings.push_back(overlap);
     summary.host = host_name();
     summary.wall_seconds = before_ + now() - begin_;
     for (StageTime& stage : summary.stages) {
@@ -239,6 +247,7 @@ int run(const RunArguments& arguments) {
   if (!doubt.empty()) std::cerr << "warning: " << doubt << "\n";
   watch_signals();
   Run one(scene, arguments.scene.threads, folder, arguments.quiet, from ? &*from : nullptr);
+  if (!from) one.warn();
   const Summary summary = one.go();
   if (!summary.message.empty()) std::cerr << summary.message << "\n";
   for (const std::string& warning : summary.warnings) std::cerr << "warning: " << warning << "\n";

@@ -174,6 +174,12 @@ void CaseBuilder::complete_launch(Mechanism& mechanism, SectionValues& values, c
 void CaseBuilder::read_mechanism(const TomlMember& member) {
   Mechanism mechanism;
   SectionValues& values = read_part(mechanism_section(), member, mechanism);
+  const auto same = std::find_if(scene_.mechanisms.begin(), scene_.mechanisms.end(),
+                                 [&](const Mechanism& other) { return other.corner == mechanism.corner; });
+  if (values.sound && same != scene_.mechanisms.end())
+    fail(values.place_of("corner"), values.path + ".corner: found " + toml_text(mechanism.corner) +
+                                        ", on which mechanism '" + same->name +
+                                        "' hangs, allowed: a corner of its own for each");
   const Net* net = references_.net(Reference(mechanism.corner).name);
   if (values.sound && net) complete_launch(mechanism, values, *net);
   scene_.mechanisms.push_back(mechanism);

@@ -367,7 +367,9 @@ class Assembler {
     const Carrier carrier = carrier_of(thread);
     const double laid = thread.overhang_start + carrier.reach.back() + thread.overhang_end;
     const double length = thread.length > 0 ? thread.length : laid;
-    carriers_[static_cast<Index>(out_.parts.size())] = {carrier, thread.overhang_start, laid};
+    const auto part = static_cast<Index>(out_.parts.size());
+    carriers_[part] = {carrier, thread.overhang_start, laid};
+    out_.laid.push_back({part, length, laid});
     add_thread_nodes(thread, length / thread.elements, [&](int k) {
       Lay lay = lay_at(carrier, thread, laid * k / thread.elements);
       const AssemblyNode &a = node(lay.a), &b = node(lay.b);

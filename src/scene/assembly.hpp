@@ -71,6 +71,12 @@ struct Threading {
   double along = 0;  ///< where the ring stands at first: elements from the thread's start
 };
 
+/// The thread that comes nearest to passing through a ring.
+struct Miss {
+  Index part = -1;      ///< -1: none crosses the ring's plane
+  double distance = 0;  ///< by which it lies outside of the opening, m
+};
+
 struct AssemblyRing {
   std::string name;
   Index element = -1;                   ///< host element, or -1
@@ -82,6 +88,14 @@ struct AssemblyRing {
   std::vector<Index> parts;             ///< the threads whose contact it can feel
   std::vector<Threading> threadings{};  ///< the threads that slide through it: none has contact with it
   Index host_a = -1, host_b = -1;       ///< end nodes of the host element, or twice its own node
+  std::optional<Miss> missed{};         ///< of an automatic joint that no thread passes through
+};
+
+/// How long a closing thread is, and what it is laid over.
+struct LaidLength {
+  Index part = 0;
+  double length = 0, covered = 0;  ///< unstretched, m; with its overhangs
+  double strain() const { return covered / length - 1; }
 };
 
 struct AssemblyBall {
@@ -115,6 +129,7 @@ struct Assembly {
   LargeVector<AssemblyElement> elements;        ///< what models are built from; see forget_start()
   Index nodes_before = 0, elements_before = 0;  ///< what exists before the closing time
   std::vector<Lay> lays;                        ///< one for each node from nodes_before on, in order
+  std::vector<LaidLength> laid;                 ///< closing threads
   std::vector<Recoil> recoils;                  ///< launchers, where not zero
   std::vector<AssemblyRing> rings;
   std::vector<AssemblySphere> spheres;

@@ -31,20 +31,24 @@ void check_opening(const Assembly& assembly, const AssemblyRing& ring, const Par
   fail(source, text);
 }
 
-// Where a thread crosses the ring's plane no farther from its centre than `reach`, in elements from its
-// start: from one side to the other. A thread that only comes to the plane does not pass.
-std::vector<double> crossings(const Assembly& assembly, const AssemblyRing& ring, const Part& thread,
-                              double reach) {
+struct Crossing {
+  double along;  // elements from the thread's start
+  double out;    // from the ring's centre, m
+};
+
+// Where a thread crosses the ring's plane: from one side to the other. A thread that only comes to the plane
+// does not pass.
+std::vector<Crossing> crossings(const Assembly& assembly, const AssemblyRing& ring, const Part& thread) {
   const auto place = [&](Index node) { return assembly.nodes[at(node)].position; };
   const Vec3 center = 0.5 * (place(ring.host_a) + place(ring.host_b));
   const Vec3 normal =
       ring.element < 0 ? ring.normal : Vec3((place(ring.host_b) - place(ring.host_a)).normalized());
-  std::vector<double> found;
+  std::vector<Crossing> found;
   std::optional<std::size_t> last;  // node that is not in the plane
   for (std::size_t k = 0; k < thread.nodes.size(); ++k) {
     const Vec3 b = place(thread.nodes[k]) - center;
     const double axial_b = normal.dot(b);
-    if (std::abs(axial_b) <= 1e-9 * reach) continue;
+    if (std::abs(axial_b) <= 1e-9 * ring.radius) continue;
     const std::size_t before = last.value_or(k);
     last = k;
     const double axial_a = normal.dot(place(thread.nodes[before]) - center);
@@ -52,7 +56,7 @@ std::vector<double> crossings(const Assembly& assembly, const AssemblyRing& ring
     // to the next node, which may lie in the plane
     const Vec3 a = place(thread.nodes[before]) - center, next = place(thread.nodes[before + 1]) - center;
     const double t = axial_a / (axial_a - normal.dot(next));
-    if (((1 - t) * a + t * next).norm() <= reach) found.push_back(static_cast<double>(before) + t);
+    found.push_back({static_cast<double>(before) + t, ((1 - t) * a + t * next).norm()});
   }
   return found;
 }
@@ -65,7 +69,26 @@ std::vector<double> places_in_ring(const Assembly& assembly, const std::map<Inde
     if (const double reach = laid->second.carrier.middle_of(ring.host_a, ring.host_b); reach >= 0)
       return {(laid->second.overhang + reach) / laid->second.length * thread.elements};
   const double room = opening(assembly, ring, thread);
-  return crossings(assembly, ring, thread, room > 0 ? room : ring.radius);  // what cannot fit is refused
+  const double reach = room > 0 ? room : ring.radius;  // what cannot fit is refused
+  std::vector<double> places;
+  for (const Crossing& crossing : crossings(assembly, ring, thread))
+    if (crossing.out <= reach) places.push_back(crossing.along);
+  return places;
+}
+
+// Nothing where one of the threads passes.
+std::optional<Miss> miss_of(const std::map<Index, LaidAlong>& carriers, const Assembly& assembly,
+                            const AssemblyRing& ring) {
+  Miss nearest;
+  for (const Index number : ring.parts) {
+    if (!places_in_ring(assembly, carriers, ring, number).empty()) return std::nullopt;
+    const Part& thread = assembly.parts[at(number)];
+    for (const Crossing& crossing : crossings(assembly, ring, thread)) {
+      const double distance = crossing.out - opening(assembly, ring, thread);
+      if (nearest.part < 0 || distance < nearest.distance) nearest = {number, distance};
+    }
+  }
+  return nearest;
 }
 
 void thread_ring(const Ring& spec, const std::map<Index, LaidAlong>& carriers, const Assembly& assembly,
@@ -121,6 +144,7 @@ void thread_rings(const Scene& scene, const std::map<Index, LaidAlong>& carriers
     if (spec.joint == RingJoint::sliding ||
         (spec.joint == RingJoint::automatic && can_slide(spec, carriers, assembly, ring)))
       thread_ring(spec, carriers, assembly, ring);
+    else if (spec.joint == RingJoint::automatic) ring.missed = miss_of(carriers, assembly, ring);
   }
 }
 

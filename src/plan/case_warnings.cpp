@@ -1,0 +1,86 @@
+#include "plan/case_warnings.hpp"
+
+#include <algorithm>
+#include <cstdio>
+
+namespace cinch {
+namespace {
+
+constexpr std::size_t at(Index i) { return static_cast<std::size_t>(i); }
+
+std::string warning(const SourceRef& source, const std::string& message) {
+  return (source.text.empty() ? std::string() : source.text + ": ") + "warning: " + message;
+}
+
+std::string words(const char* format, double a, double b = 0) {
+  char text[160];
+  std::snprintf(text, sizeof text, format, a, b);
+  return text;
+}
+
+// Rings of one row miss alike: one warning for all of a place in the file.
+void warn_of_missed_rings(const Scene& scene, const Assembly& assembly, std::vector<std::string>& warnings) {
+  std::vector<std::string> told;
+  for (std::size_t r = 0; r < assembly.rings.size(); ++r) {
+    const AssemblyRing& ring = assembly.rings[r];
+    const SourceRef& source = scene.rings[r].source;
+    if (!ring.missed || std::find(told.begin(), told.end(), source.text) != told.end()) continue;
+    if (!source.text.empty()) told.push_back(source.text);
+    const auto alike = std::count_if(scene.rings.begin(), scene.rings.end(), [&](const Ring& other) {
+      return !source.text.empty() && other.source.text == source.text &&
+             assembly.rings[static_cast<std::size_t>(&other - scene.rings.data())].missed;
+    });
+    const Miss& miss = *ring.missed;
+    warnings.push_back(warning(
+        source,
+        "no thread passes through ring '" + ring.name + "'" +
+            (alike > 1 ? " (and " + std::to_string(alike - 1) + " more of this row)" : "") +
+            (miss.part < 0 ? std::string(": none crosses its plane")
+                           : ": the nearest, " + assembly.parts[at(miss.part)].reference() +
+                                 words(", lies %.3g m outside of its opening", miss.distance)) +
+            "; its joint = \"auto\" becomes contact with the wire (joint = \"contact\" says so without this "
+            "warning)"));
+  }
+}
+
+std::string path_of(const Thread& thread) {
+  std::string path;
+  for (const std::string& part : thread.along) path += (path.empty() ? "" : ", ") + part;
+  return path;
+}
+
+void warn_of_short_threads(const Scene& scene, const Assembly& assembly, std::vector<std::string>& warnings) {
+  for (const LaidLength& laid : assembly.laid) {
+    if (laid.strain() <= great_laid_strain) continue;
+    const std::string& name = assembly.parts[at(laid.part)].name;
+    const auto thread = std::find_if(scene.threads.begin(), scene.threads.end(),
+                                     [&](const Thread& t) { return t.name == name; });
+    warnings.push_back(warning(
+        thread->source, "closing thread '" + name + "'" +
+                            words(" of length_m = %.6g m is laid over %.6g m", laid.length, laid.covered) +
+                            " (along " + path_of(*thread) + ")" +
+                            words(": it begins with %.3g %% of strain, allowed without this warning: %.3g %%",
+                                  100 * laid.strain(), 100 * great_laid_strain)));
+  }
+}
+
+void warn_of_late_closing(const Scene& scene, const Preparation& preparation,
+                          std::vector<std::string>& warnings) {
+  const bool closes = preparation.closing_step >= 0;
+  if (!closes || preparation.closing_step <= preparation.end_step) return;
+  warnings.push_back(warning(scene.closing.source,
+                             words("closing.time_s = %.6g s comes after time.end_s = %.6g s: nothing closes",
+                                   scene.closing.time.value_or(0), scene.time.end)));
+}
+
+}  // namespace
+
+std::vector<std::string> case_warnings(const Scene& scene, const Preparation& preparation) {
+  std::vector<std::string> warnings;
+  warn_of_late_closing(scene, preparation, warnings);
+  warn_of_short_threads(scene, preparation.assembly, warnings);
+  warn_of_missed_rings(scene, preparation.assembly, warnings);
+  return warnings;
+}
+
+}  // namespace cinch
