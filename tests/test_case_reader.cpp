@@ -1,6 +1,7 @@
 // Case files: what is read, what is refused and with which words.
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <cstdlib>
 #include <fstream>
@@ -470,7 +471,8 @@ TEST(CaseReader, UnknownKeysAndSections) {
 }
 
 TEST(CaseReader, MissingKeysAndSections) {
-  expect_error("schema = 1\n" + aramid + thread, {"t.toml: error: missing section [time]"});
+  expect_error("schema = 1\n" + aramid + thread, {"t.toml:1:1: error: missing section [time]",
+                                                  "required in it: end_s (number in s, > 0 and <= 1e+06)"});
   expect_error("schema = 1\n[time]\n" + aramid + thread,
                {"t.toml:2:2: error: missing key 'time.end_s'", "allowed: number in s, > 0"});
   expect_error(head + aramid + "[thread.main]\nelements = 1\n",
@@ -478,6 +480,41 @@ TEST(CaseReader, MissingKeysAndSections) {
                 "missing key 'thread.main.points_m' (or 'along')"});
   expect_error(head, {"neither a [net.NAME] nor a [thread.NAME]"});
   expect_error(minimal + "[ring.r]\non = \"thread.main\"\n" + ring_body, {"missing key 'ring.r.element'"});
+}
+
+// One error for a slip of the pen, not one for what it is not and one for what is missing.
+TEST(CaseReader, AMisspeltRequiredKeyIsOneMistake) {
+  const std::vector<std::array<std::string, 3>> slips{{"end_s = 1", "end_ms = 1", "'end_s'"},
+                                                      {"end_s = 1", "edn_s = 1", "'end_s'"},
+                                                      {"diameter_m", "diameter_mm", "'diameter_m'"},
+                                                      {"density_kg_m3", "density_g_cm3", "'density_kg_m3'"},
+                                                      {"[time]", "[tiem]", "'time'"}};
+  for (const auto& [right, wrong, meant] : slips) {
+    std::string text = minimal;
+    text.replace(text.find(right), right.size(), wrong);
+    const std::string error = error_of(text);
+    EXPECT_EQ(count_errors(error), 1u) << error;
+    EXPECT_NE(error.find("(did you mean " + meant + "?)"), std::string::npos) << error;
+  }
+}
+
+TEST(CaseReader, AKnotWithoutQuotes) {
+  const std::string error = error_of(head + aramid + net + "[net.main.node.knot.3.4]\nmass_kg = 1\n");
+  EXPECT_EQ(count_errors(error), 1u) << error;
+  EXPECT_NE(error.find("the name of a knot has dots, so it needs quotes"), std::string::npos) << error;
+  EXPECT_NE(error.find("example: [net.main.node.\"knot.3.4\"]"), std::string::npos) << error;
+}
+
+TEST(CaseReader, TwoMechanismsOnOneCorner) {
+  std::string second = mechanism;
+  second.replace(second.find("m1"), 2, "m2");
+  const std::string error = error_of(head + "[closing]\ntime_s = 0.5\n" + aramid + net + mechanism + second);
+  EXPECT_EQ(count_errors(error), 1u) << error;
+  EXPECT_NE(
+      error.find("t.toml:23:10: error: mechanism.m2.corner: found \"net.main.top_left\", on which mechanism "
+                 "'m1' hangs, allowed: "),
+      std::string::npos)
+      << error;
 }
 
 TEST(CaseReader, WrongTypesAndRanges) {

@@ -24,6 +24,14 @@ std::vector<std::string> section_names() {
   return names;
 }
 
+// "end_s (number in s, > 0 and <= 1e+06)"
+std::string required_keys(const SectionInfo& section) {
+  std::string text;
+  for (const KeyInfo& key : section.keys)
+    if (key.required) text += (text.empty() ? "" : ", ") + key.name + " (" + allowed_text(key) + ")";
+  return text;
+}
+
 bool is_part_name(const std::string& name) { return !name.empty() && toml_key(name) == name; }
 
 }  // namespace
@@ -75,6 +83,7 @@ void CaseBuilder::check_top_level() {
         [&](const SectionInfo* section) { return section->name == member.key && section->name != "node"; });
     const bool table = member.value.type == Type::table;
     if (info == all_sections().end()) {
+      meant_sections_.insert(nearest_key(member.key, known));
       fail(member.key_place,
            std::string(table ? "unknown section '" : "unknown key '") + toml_key(member.key) + "'" +
                did_you_mean(member.key, known),
@@ -130,7 +139,8 @@ const SectionValues* CaseBuilder::read_single(const Section<Part>& section, Part
   if (member && member->value.type != Type::table) return nullptr;  // told already
   if (!member && section.optional_feature) return nullptr;
   if (!member && section.required) {
-    fail({}, "missing section [" + section.name + "]");
+    if (!meant_sections_.contains(section.name))  // a slip of the pen is one mistake
+      fail({1, 1}, "missing section [" + section.name + "]", "required in it: " + required_keys(section));
     return nullptr;
   }
   const Place place = member ? member->key_place : Place{};

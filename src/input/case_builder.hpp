@@ -61,8 +61,8 @@ class CaseBuilder {
   Scene scene_;
   References references_;
   std::deque<SectionValues> sections_;  // in the order of the resolved case; references to them stay valid
-  std::set<std::string> ring_names_;
-  std::string method_;  // on which defaults depend
+  std::set<std::string> ring_names_, meant_sections_;  // meant: by names that are unknown
+  std::string method_;                                 // on which defaults depend
 };
 
 template <class Part>

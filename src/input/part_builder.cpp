@@ -32,6 +32,13 @@ Vec3 outward_diagonal(const Net& net, const std::string& corner) {
   return (x * net.width * net.x_axis + y * net.height * net.y_axis).normalized();
 }
 
+// What [net.NAME.node.knot.3.4] meant, whose dots make tables inside each other.
+std::string first_knot(const TomlMember& knot) {
+  const auto& columns = knot.value.members;
+  if (columns.empty() || columns[0].value.members.empty()) return "knot.3.4";
+  return "knot." + columns[0].key + "." + columns[0].value.members[0].key;
+}
+
 unsigned probe_forms(ProbeQuantity quantity) {
   switch (quantity) {
     case ProbeQuantity::tension:
@@ -147,7 +154,10 @@ void CaseBuilder::read_net(const TomlMember& member) {
   for (const TomlMember& node : nodes->value.members) {
     const std::string node_path = path + ".node." + toml_key(node.key);
     const auto problem = references_.check("net." + net.name + "." + node.key, a_net_corner | a_net_knot);
-    if (problem) fail(node.key_place, "'" + node_path + "': " + problem->message, problem->help);
+    if (problem && node.key == "knot" && node.value.type == TomlValue::Type::table)
+      fail(node.key_place, "'" + node_path + "': the name of a knot has dots, so it needs quotes",
+           "example: [" + path + ".node.\"" + first_knot(node) + "\"]");
+    else if (problem) fail(node.key_place, "'" + node_path + "': " + problem->message, problem->help);
     else specs[node.key] = read_node(node_path, node);
   }
   scene_.nets.back().nodes = specs;

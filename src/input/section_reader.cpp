@@ -140,18 +140,18 @@ class Reading {
       : values_(values), info_(*values.info), table_(table), method_(method), diagnostics_(diagnostics) {}
 
   void run() {
+    for (const KeyInfo& key : info_.keys) known_.push_back(key.name);
     for (const TomlMember& member : table_.members) refuse_unknown(member);
     for (std::size_t i = 0; i < info_.keys.size(); ++i) read(info_.keys[i], i);
   }
 
  private:
   void refuse_unknown(const TomlMember& member) {
-    std::vector<std::string> known;
-    for (const KeyInfo& key : info_.keys) known.push_back(key.name);
-    if (std::find(known.begin(), known.end(), member.key) != known.end()) return;
+    if (std::find(known_.begin(), known_.end(), member.key) != known_.end()) return;
+    meant_.insert(nearest_key(member.key, known_));
     fail(member.key_place,
-         "unknown key '" + values_.path + "." + toml_key(member.key) + "'" + did_you_mean(member.key, known),
-         "allowed " + section_text() + ": " + list_of(known));
+         "unknown key '" + values_.path + "." + toml_key(member.key) + "'" + did_you_mean(member.key, known_),
+         "allowed " + section_text() + ": " + list_of(known_));
   }
 
   void read(const KeyInfo& key, std::size_t row) {
@@ -166,7 +166,7 @@ class Reading {
         fail(member->value.place, full_name(key) + ": found " + describe(member->value) +
                                       ", allowed: a table of the keys of a node");
     } else if (applies && key.required) {
-      refuse_missing(key);
+      if (!meant_.contains(key.name)) refuse_missing(key);  // a slip of the pen is one mistake
     } else if (applies && !key.fallback.empty()) {
       fill_in(key, row);
     }
@@ -221,6 +221,8 @@ class Reading {
   const TomlValue& table_;
   const std::string& method_;
   Diagnostics& diagnostics_;
+  std::vector<std::string> known_;
+  std::set<std::string> meant_;  // by keys that are unknown
 };
 
 }  // namespace
