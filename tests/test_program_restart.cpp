@@ -46,6 +46,17 @@ TEST_F(Restarted, IsTheSameAsOneRun) {
   EXPECT_FALSE(fs::exists(path("r/run.vtkhdf.tmp")));
 }
 
+// Killed within its first minute: why there is no checkpoint, and what to do.
+TEST_F(Restarted, AKilledRunWithoutCheckpointIsToldWhy) {
+  ASSERT_EQ(run({"run", "tiny.toml", "--quiet", "--out", "r", "--set", "output.checkpoint=false"}), 0)
+      << err();
+  EXPECT_EQ(run(go_on("0.002", "r")), 4);
+  EXPECT_TRUE(err().starts_with("error: r: no checkpoint.h5 in this directory, but a result: ")) << err();
+  for (const char* words :
+       {"once a minute by default", "run the case anew", "output.checkpoint_run_time_s=10"})
+    EXPECT_TRUE(has(err(), words)) << err();
+}
+
 TEST_F(Restarted, FromWithinItsFolder) {
   ASSERT_EQ(run(begin("0.001", "whole")), 0) << err();
   ASSERT_EQ(run(begin("0.0004", ".")), 0) << err();

@@ -854,6 +854,22 @@ TEST(Results, InfoNamesWhatIsThere) {
   }
 }
 
+TEST(Results, InfoReadsWell) {
+  const Scratch scratch;
+  ResultModel model = small_model(5);
+  model.probes = {{"all", "energy", "", "J"}};
+  Recorder recorder(scratch.path, model, {});
+  Summary summary = small_summary();
+  summary.status = "failed";
+  summary.message = "error: at t = 1 s something broke";
+  recorder.finish(summary);
+  std::ostringstream text;
+  print_info(Result(scratch.path), text);
+  for (const char* part :
+       {"all: energy, J\n", "sliding joints  forces hold", "failed: at t = 1 s something broke\n"})
+    EXPECT_NE(text.str().find(part), std::string::npos) << part << "\n" << text.str();
+}
+
 TEST(Results, InfoOfARunWithoutFramesAndLedger) {
   const Scratch scratch;
   Recorder recorder(scratch.path, small_model(5), {});

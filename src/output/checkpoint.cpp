@@ -40,12 +40,21 @@ Block describe(const Descriptor& file) {
   return block;
 }
 
+// Of a result without checkpoint: what is likely, and what to do.
+std::string why_none() {
+  return ", but a result: its run was killed before it wrote one (once a minute by default, and when it ends "
+         "or is "
+         "stopped by Ctrl-C or SIGTERM), or has output.checkpoint = false\n    run the case anew; "
+         "--set output.checkpoint_run_time_s=10 writes one every ten seconds";
+}
+
 fs::path find_checkpoint(const fs::path& path) {
   std::error_code error;
   if (!fs::exists(path, error)) throw FileError("error: " + path.string() + ": no such file or directory");
   if (!fs::is_directory(path, error)) return path;
   if (!fs::exists(path / layout::kCheckpointFile, error))
-    throw FileError("error: " + path.string() + ": no " + layout::kCheckpointFile + " in this directory");
+    throw FileError("error: " + path.string() + ": no " + layout::kCheckpointFile + " in this directory" +
+                    (fs::exists(path / layout::kResultFile, error) ? why_none() : ""));
   return path / layout::kCheckpointFile;
 }
 

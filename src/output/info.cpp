@@ -12,15 +12,21 @@ using std::string;
 
 template <class... Values>
 void line(std::ostream& out, const char* label, const char* format, Values... values) {
-  char text[512];
+  char text[2048];  // what stopped a run may take some lines
   if constexpr (sizeof...(values) == 0) {
     std::snprintf(text, sizeof text, "%s", format);
   } else {
     std::snprintf(text, sizeof text, format, values...);
   }
   char start[32];
-  std::snprintf(start, sizeof start, "%-14s", label);
+  std::snprintf(start, sizeof start, "%-16s", label);
   out << start << text << '\n';
+}
+
+// What stopped a run, as a part of a line.
+string reason(const Summary& summary) {
+  const string prefix = "error: ";
+  return summary.message.starts_with(prefix) ? summary.message.substr(prefix.size()) : summary.message;
 }
 
 void print_frames(const Result& result, std::ostream& out) {
@@ -34,8 +40,8 @@ void print_frames(const Result& result, std::ostream& out) {
   if (!result.model().probes.empty()) {
     line(out, "probes", "%zu columns, %zu rows", result.model().probes.size(), result.probe_times().size());
     for (const auto& probe : result.model().probes) {
-      line(out, "", "%s: %s of %s, %s", probe.name.c_str(), probe.quantity.c_str(), probe.of.c_str(),
-           probe.unit.c_str());
+      line(out, "", "%s: %s%s%s, %s", probe.name.c_str(), probe.quantity.c_str(),
+           probe.of.empty() ? "" : " of ", probe.of.c_str(), probe.unit.c_str());
     }
   }
 }
@@ -84,7 +90,7 @@ void print_events(const Summary& summary, std::ostream& out) {
 
 void print_verdict(const Summary& summary, std::ostream& out) {
   line(out, "status", "%s%s%s", summary.status.c_str(), summary.message.empty() ? "" : ": ",
-       summary.message.c_str());
+       reason(summary).c_str());
   line(out, "steps", "%lld of %.9g s, %.9g s simulated", static_cast<long long>(summary.steps),
        summary.time_step, summary.simulated_seconds);
   if (summary.joint_steps > 1)
