@@ -233,8 +233,8 @@ void Comparer::bodies() {
 
 void Comparer::partners_lacking(const string& what, const Partners& partners) {
   if (partners.alone_a + partners.alone_b > 0)
-    differ(text(partners.alone_a) + " " + what + " of A and " + text(partners.alone_b) +
-           " of B have no partner of the same time");
+    differ(what + " without partner of the same time: " + text(partners.alone_a) + " in A, " +
+           text(partners.alone_b) + " in B");
 }
 
 void Comparer::frames() {
