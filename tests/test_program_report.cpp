@@ -68,6 +68,23 @@ TEST_F(Reported, AStoppedRunIsNotJudgedByWhatComesLater) {
   EXPECT_TRUE(has(out(), "not in these results   Ball passes the ring")) << out();
 }
 
+TEST_F(Reported, ThreeRingsWithoutANetAreNoMouth) {
+  std::string text =
+      "schema = 1\n[time]\nend_s = 0.01\n[material.m]\nyoungs_modulus_Pa = 1e9\ndensity_kg_m3 = 970\n"
+      "[thread.t]\nmaterial = \"m\"\ndiameter_m = 0.002\n"
+      "points_m = [[0, 0, 0], [0.2, 0.1, 0], [0.4, 0, 0], [0.5, 0, 0]]\nend = { velocity_m_s = [0, 1, 0] }\n";
+  int number = 0;
+  for (const char* center : {"0.1, 0.05, 0", "0.2, 0.1, 0", "0.3, 0.05, 0"})
+    text += "[ring.r" + std::to_string(++number) +
+            "]\ndiameter_m = 0.02\nwire_diameter_m = 0.004\nmass_kg = 0.1\nyoungs_modulus_Pa = 7e10\n"
+            "normal = [1, 0, 0]\ncenter_m = [" +
+            center + "]\n";
+  write("rings.toml", text);
+  ASSERT_EQ(run({"run", "rings.toml", "--quiet", "--out", "r"}), 0) << err();
+  ASSERT_EQ(run({"report", "r"}), 0) << err();
+  EXPECT_FALSE(has(text_of(path("r/report.html")), "Area of the mouth"));
+}
+
 // Its own pages are replaced, nothing else.
 TEST_F(Reported, NoOtherFileIsReplaced) {
   ASSERT_EQ(run({"run", "tiny.toml", "--quiet", "--out", "r"}), 0) << err();

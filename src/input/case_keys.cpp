@@ -368,8 +368,10 @@ const Section<Probe>& probe_section() {
            "A quantity recorded often. `position`, `displacement`, `velocity` and `speed` are of a node or "
            "ring; "
            "`force` is the contact force on a ring or node; `tension` of a thread, net or mechanism is the "
-           "greatest of its elements, of a node the greatest of the elements that meet there; `mouth_area`, "
-           "`mouth_spread` (greatest distance between ring centres) and `energy` are of the whole scene."},
+           "greatest of its elements, of a node the greatest of the elements that meet there; `mouth_area` "
+           "(of the convex hull of all ring centres, in the plane that fits them best), `mouth_spread` "
+           "(greatest "
+           "distance between ring centres) and `energy` are of the whole scene."},
       {
           {{.name = "quantity",
             .type = choice,

@@ -118,8 +118,10 @@ void add_frame(const Frame& frame, Digest& d) {
     append(d.mass_position[m], frame.time, frame.position[node]);
     append(d.mass_velocity[m], frame.time, frame.velocity[node]);
   }
-  if (d.model.rings.size() >= 2) append(d.mouth_spread, frame.time, mouth_spread(frame.ring_center));
-  if (d.model.rings.size() >= 3) append(d.mouth_area, frame.time, mouth_area(frame.ring_center));
+  const bool net = std::any_of(d.model.parts.begin(), d.model.parts.end(),
+                               [](const auto& part) { return part.kind == "net"; });  // else no mouth
+  if (net && d.model.rings.size() >= 2) append(d.mouth_spread, frame.time, mouth_spread(frame.ring_center));
+  if (net && d.model.rings.size() >= 3) append(d.mouth_area, frame.time, mouth_area(frame.ring_center));
   double tension = 0;
   for (const double value : frame.tension) tension = std::max(tension, value);
   append(d.peak_tension, frame.time, tension);
