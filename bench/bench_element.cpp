@@ -1,5 +1,5 @@
 // The element update (spring, damper, reduction to nodes, integration) of one chain without contact, beside
-// its yardstick. Time an element and step is the inverse of element_updates_per_second.
+// its yardstick, and of a small net. Time an element and step is the inverse of element_updates_per_second.
 #include <benchmark/benchmark.h>
 
 #include "bare_chain.hpp"
@@ -41,8 +41,20 @@ void solver(benchmark::State& state, bool ledger) {
 void chain(benchmark::State& state) { solver(state, false); }
 void chain_with_ledger(benchmark::State& state) { solver(state, true); }
 
+// Mesh sides of several elements: short runs of elements in place of long ones.
+void peers_net(benchmark::State& state) {
+  const Scene scene = peers_net_scene();
+  Simulation simulation(scene, step_by_step(prepare(scene)), 1);
+  simulation.advance_to(batch);
+  for (auto _ : state) simulation.advance_to(simulation.step() + batch);
+  const double steps = static_cast<double>(state.iterations() * batch);
+  count_updates(state, steps * simulation.model().elements);
+  count_simulated(state, steps * simulation.preparation().dt);
+}
+
 BENCHMARK(bare)->Name("element/bare")->Arg(200)->Arg(2000);
 BENCHMARK(chain)->Name("element/chain")->Arg(200)->Arg(2000);
+BENCHMARK(peers_net)->Name("element/net_of_781_nodes");
 BENCHMARK(chain_with_ledger)->Name("element/chain_with_ledger")->Arg(200)->Arg(2000);
 
 }  // namespace

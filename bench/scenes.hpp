@@ -40,6 +40,12 @@ inline std::string net_text(std::int64_t knots, const Features& has = {}) {
          ", " + side + "]\nmesh_m = 0.1\nstowed_factor = 1.001\nvelocity_m_s = [0, 0, 1]\n";
 }
 
+/// The net that bench/README.md compares with other programs': 781 nodes, 880 elements, taut as well.
+inline Scene peers_net_scene() {
+  std::string text = net_text(11);
+  return parse_case(text.insert(text.find("mesh_m"), "elements_per_side = 4\n"), "net.toml");
+}
+
 inline Scene net_scene(std::int64_t knots, const Features& has = {}) {
   return parse_case(net_text(knots, has), "net.toml");
 }
