@@ -61,6 +61,9 @@ TEST(Runs, FollowThreadsAndNets) {
   EXPECT_EQ(counts(test::net_graph(10, 10, 1)), std::pair(std::size_t{2}, std::size_t{0}))
       << "rows and columns";
   EXPECT_EQ(counts(test::net_graph(1000, 20, 1)), std::pair(std::size_t{2}, std::size_t{0}));
+  EXPECT_EQ(counts(test::net_graph(10, 10, 4)), std::pair(std::size_t{8}, std::size_t{11}))
+      << "whatever the number of rows; links end in the last knot of each";
+  EXPECT_LE(counts(test::net_graph(30, 30, 2)).first, 2u * 10) << "two bands";
   EXPECT_EQ(counts(test::dressed_net_graph(10, 10, 4, 240)), std::pair(std::size_t{2}, std::size_t{4}))
       << "threads go on where the rows end; each hangs on one link";
 }

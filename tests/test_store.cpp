@@ -36,6 +36,43 @@ Net net_of(int columns, int rows, int sub) {
 }
 
 // ----------------------------------------------------------------------------------------------------
+// Numbering of nets
+
+// Of every side (horizontal or vertical, mesh, element) the node must lie where it belongs.
+void expect_nodes_in_their_places(const Net& net) {
+  const NetPattern pattern(net);
+  std::vector<std::array<double, 2>> place;
+  pattern.for_each_node([&](double x, double y) { place.push_back({x, y}); });
+  ASSERT_EQ(place.size(), at(pattern.nodes()));
+  std::vector<int> met(place.size(), 0);
+  const auto check = [&](Index node, double x, double y) {
+    ASSERT_TRUE(node >= 0 && node < pattern.nodes());
+    ++met[at(node)];
+    ASSERT_NEAR(place[at(node)][0], x * net.mesh - 0.5 * net.width, 1e-9);
+    ASSERT_NEAR(place[at(node)][1], y * net.mesh - 0.5 * net.height, 1e-9);
+  };
+  const Index sub = net.elements_per_side;
+  for (Index j = 0; j <= net.rows(); ++j)
+    for (Index i = 0; i <= net.columns(); ++i) {
+      check(pattern.knot(i, j), i, j);
+      for (Index k = 1; k < sub; ++k) {
+        const double part = static_cast<double>(k) / sub;
+        if (i < net.columns()) check(pattern.horizontal(i, j, k), i + part, j);
+        if (j < net.rows()) check(pattern.vertical(i, j, k), i, j + part);
+      }
+    }
+  EXPECT_EQ(met, std::vector<int>(place.size(), 1));
+}
+
+TEST(NetPattern, NumbersEachNodeOnceAndInItsPlace) {
+  for (const auto& [columns, rows, sub] :
+       {std::array{1, 1, 1}, {3, 2, 1}, {10, 10, 2}, {10, 10, 4}, {1, 200, 3}, {7, 100, 5}, {300, 4, 4}}) {
+    SCOPED_TRACE(std::to_string(columns) + " x " + std::to_string(rows) + ", " + std::to_string(sub));
+    expect_nodes_in_their_places(net_of(columns, rows, sub));
+  }
+}
+
+// ----------------------------------------------------------------------------------------------------
 // Masses
 
 // Capture, by hand. Elements of the net and towing threads: 970 kg/m^3 pi/4 (2 mm)^2 0.1 m = 3.047344874e-4

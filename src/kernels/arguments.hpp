@@ -11,7 +11,7 @@ constexpr Index lanes = 8;          ///< nodes and elements go in groups of so m
 constexpr Index ring_scratch = 3584;         ///< numbers that a batch of ring contacts works on
 constexpr Index sliding_scratch = 2 * 1328;  ///< numbers that a call for sliding joints works on
 constexpr Index joint_scratch = 88;          ///< ... and besides for each joint
-constexpr Index max_terms = 3;  ///< element forces on a node that one pass adds up, in pairs (+, -)
+constexpr Index max_terms = 4;  ///< element forces on a node that one pass adds up, in pairs (+, -)
 
 /// Elements whose lower ends are the nodes of whole groups from `node` on; the upper ends lie `step` nodes
 /// further on. Lanes without element have void parameters and give zero force.

@@ -65,9 +65,10 @@ struct Chain {
 
 /// What adds to the element forces along one axis.
 struct Others {
-  const double *plus[2], *minus[2];  ///< second and third term of the chain's first node, N
-  const double* load;                ///< standing, on that node, N
-  Group pull;                        ///< dt g, m/s
+  /// Terms from the second on of the chain's first node, N.
+  const double *plus[kernel::max_terms - 1], *minus[kernel::max_terms - 1];
+  const double* load;  ///< standing, on that node, N
+  Group pull;          ///< dt g, m/s
 };
 
 CINCH_INLINE Chain chain(const AxialArguments& g, const NodeArguments& n, const Span& s) {
@@ -77,8 +78,8 @@ CINCH_INLINE Chain chain(const AxialArguments& g, const NodeArguments& n, const 
 }
 
 CINCH_INLINE Others others(const double* force, const Stretch& s, const double* load, double pull) {
-  return {{force + s.plus[1], force + s.plus[2]},
-          {force + s.minus[1], force + s.minus[2]},
+  return {{force + s.plus[1], force + s.plus[2], force + s.plus[3]},
+          {force + s.minus[1], force + s.minus[2], force + s.minus[3]},
           load,
           _mm512_set1_pd(pull)};
 }
@@ -201,6 +202,8 @@ double update_one(const AxialArguments& g, const NodeArguments& n, const Span& s
       return update<damped, power, gravity, kind, 1>(g, n, span, stretch);
     case 2:
       return update<damped, power, gravity, kind, 2>(g, n, span, stretch);
+    case 3:
+      return update<damped, power, gravity, kind, 3>(g, n, span, stretch);
     default:
       return update<damped, power, gravity, kind, kernel::max_terms>(g, n, span, stretch);
   }

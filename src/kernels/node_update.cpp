@@ -28,11 +28,12 @@ struct Force {
 // so that one address serves both.
 template <bool chain, int terms>
 inline double sum(const double* p0, const double* m0, const double* p1, const double* m1, const double* p2,
-                  const double* m2, std::ptrdiff_t i) {
+                  const double* m2, const double* p3, const double* m3, std::ptrdiff_t i) {
   if (terms == 0) return 0;
   double all = p0[i] - (chain ? p0[i - 1] : m0[i]);
   if (terms > 1) all += p1[i] - m1[i];
   if (terms > 2) all += p2[i] - m2[i];
+  if (terms > 3) all += p3[i] - m3[i];
   return all;
 }
 
@@ -42,16 +43,17 @@ template <bool gravity, Moving::Kind kind, bool chain, int terms>
 inline double move(std::ptrdiff_t count, double* __restrict x, double* __restrict y, double* __restrict z,
                    double* __restrict vx, double* __restrict vy, double* __restrict vz,
                    const double* __restrict scale, Force p0, Force m0, Force p1, Force m1, Force p2, Force m2,
-                   const double* lx, const double* ly, const double* lz, const double (&pull)[3], double dt) {
+                   Force p3, Force m3, const double* lx, const double* ly, const double* lz,
+                   const double (&pull)[3], double dt) {
   constexpr bool loaded = kind == Moving::loaded;
   const double gx = pull[0], gy = pull[1], gz = pull[2];
   double greatest = 0;
 #pragma omp simd reduction(max : greatest)
   for (std::ptrdiff_t i = 0; i < count; ++i) {
     const double s = scale[i];
-    const double fx = sum<chain, terms>(p0.x, m0.x, p1.x, m1.x, p2.x, m2.x, i);
-    const double fy = sum<chain, terms>(p0.y, m0.y, p1.y, m1.y, p2.y, m2.y, i);
-    const double fz = sum<chain, terms>(p0.z, m0.z, p1.z, m1.z, p2.z, m2.z, i);
+    const double fx = sum<chain, terms>(p0.x, m0.x, p1.x, m1.x, p2.x, m2.x, p3.x, m3.x, i);
+    const double fy = sum<chain, terms>(p0.y, m0.y, p1.y, m1.y, p2.y, m2.y, p3.y, m3.y, i);
+    const double fz = sum<chain, terms>(p0.z, m0.z, p1.z, m1.z, p2.z, m2.z, p3.z, m3.z, i);
     const double ax = s * (loaded ? fx + lx[i] : fx);
     const double ay = s * (loaded ? fy + ly[i] : fy);
     const double az = s * (loaded ? fz + lz[i] : fz);
@@ -73,11 +75,11 @@ inline double move(std::ptrdiff_t count, double* __restrict x, double* __restric
 template <bool gravity, Moving::Kind kind, bool chain, int terms>
 double move_stretch(const NodeArguments& g, const Stretch& s) {
   const auto load = [&](const double* loads) { return kind == Moving::loaded ? loads + s.node : nullptr; };
-  return move<gravity, kind, chain, terms>(s.count, g.x + s.node, g.y + s.node, g.z + s.node, g.vx + s.node,
-                                           g.vy + s.node, g.vz + s.node, g.scale + s.node,
-                                           Force(g, s.plus[0]), Force(g, s.minus[0]), Force(g, s.plus[1]),
-                                           Force(g, s.minus[1]), Force(g, s.plus[2]), Force(g, s.minus[2]),
-                                           load(g.load_x), load(g.load_y), load(g.load_z), g.gravity, g.dt);
+  return move<gravity, kind, chain, terms>(
+      s.count, g.x + s.node, g.y + s.node, g.z + s.node, g.vx + s.node, g.vy + s.node, g.vz + s.node,
+      g.scale + s.node, Force(g, s.plus[0]), Force(g, s.minus[0]), Force(g, s.plus[1]), Force(g, s.minus[1]),
+      Force(g, s.plus[2]), Force(g, s.minus[2]), Force(g, s.plus[3]), Force(g, s.minus[3]), load(g.load_x),
+      load(g.load_y), load(g.load_z), g.gravity, g.dt);
 }
 
 template <bool gravity, Moving::Kind kind>
@@ -90,6 +92,8 @@ inline double move_one(const NodeArguments& g, const Stretch& s) {
       return chain ? move_stretch<gravity, kind, true, 1>(g, s) : move_stretch<gravity, kind, false, 1>(g, s);
     case 2:
       return chain ? move_stretch<gravity, kind, true, 2>(g, s) : move_stretch<gravity, kind, false, 2>(g, s);
+    case 3:
+      return move_stretch<gravity, kind, false, 3>(g, s);
     default:
       return move_stretch<gravity, kind, false, kernel::max_terms>(g, s);
   }

@@ -4,22 +4,49 @@
 #include <charconv>
 
 namespace cinch {
+namespace {
+
+constexpr Index nodes_of_band = 2048;  // about a block of the force reduction
+constexpr Index fewest_rows = 4;       // of a band: elements of the last column make runs of so many
+
+}  // namespace
 
 NetPattern::NetPattern(const Net& net)
     : columns_(net.columns()), rows_(net.rows()), sub_(net.elements_per_side), mesh_(net.mesh) {
   row_stride_ = (columns_ + 1) + sub_inner() * columns_ + sub_inner() * (columns_ + 1);
+  const Index rows = nodes_of_band / row_stride_;
+  band_rows_ = sub_ > 1 && rows >= fewest_rows ? rows : 1;
+}
+
+NetPattern::Band NetPattern::band_of(Index j) const {
+  const Index row = j / band_rows_ * band_rows_;
+  return {row, std::min(band_rows_, rows_ + 1 - row), std::min(band_rows_, rows_ - row), row * row_stride_};
+}
+
+// Among `rows` of nodes with one more than there are meshes.
+Index NetPattern::of_upright(Index rows, Index row, Index i) const {
+  return i < columns_ ? row * columns_ + i : rows * columns_ + row;
+}
+
+Index NetPattern::knot(Index i, Index j) const {
+  const Band band = band_of(j);
+  return band.first + of_upright(band.rows, j - band.row, i);
 }
 
 Index NetPattern::horizontal(Index i, Index j, Index k) const {
   if (k == 0) return knot(i, j);
   if (k == sub_) return knot(i + 1, j);
-  return j * row_stride_ + (columns_ + 1) + (k - 1) * columns_ + i;
+  const Band band = band_of(j);
+  return band.first + band.rows * (columns_ + 1 + (k - 1) * columns_) + (j - band.row) * columns_ + i;
 }
 
 Index NetPattern::vertical(Index i, Index j, Index k) const {
   if (k == 0) return knot(i, j);
   if (k == sub_) return knot(i, j + 1);
-  return j * row_stride_ + (columns_ + 1) + sub_inner() * columns_ + (k - 1) * (columns_ + 1) + i;
+  const Band band = band_of(j);
+  const Index below = band.rows * (columns_ + 1 + sub_inner() * columns_);
+  return band.first + below + band.upright * (k - 1) * (columns_ + 1) +
+         of_upright(band.upright, j - band.row, i);
 }
 
 std::int64_t NetPattern::elements(const Net& net) {
