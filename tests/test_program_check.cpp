@@ -110,6 +110,15 @@ TEST_F(Doubtful, AnOverlapWithATargetIsNamed) {
   EXPECT_TRUE(has(err(), " m deep in target 'ball'; likely cause: an overlap at the start")) << err();
 }
 
+TEST_F(Doubtful, AShallowOverlapIsNotBlamedForOtherFaults) {
+  write("ball.toml",  // 0.01 mm into the net
+        closing_case + std::string("[target.ball]\ncenter_m = [0, 0, 0.142467]\nradius_m = 0.15\n"
+                                   "youngs_modulus_Pa = 2.3e9\n"));
+  EXPECT_EQ(run({"run", "ball.toml", "--out", "r", "--set", "time.speed_limit_m_s=0.5"}), 3);
+  EXPECT_TRUE(has(err(), "(time.speed_limit_m_s = 0.5)")) << err();
+  EXPECT_FALSE(has(err(), "overlap")) << err();
+}
+
 TEST_F(Doubtful, AnOverlapOfClosingThreadsIsOneOfClosing) {
   const Words thick_thread{"closing.toml", "--set", "thread.c.diameter_m=0.03", "--set",
                            "case.method=contact"};
