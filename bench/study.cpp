@@ -104,8 +104,7 @@ struct Reference {
   double error = 0;  // its own
 };
 
-// Settings of a reference scatter about what they all come to: the error of their mean is that of a mean of
-// as many runs, see errors_of, by the one that is furthest off.
+// Settings of a reference scatter about what they all come to; the one that is furthest off counts.
 Reference reference_of(const Problem& problem) {
   if (problem.exact) return {};
   std::vector<Track> finest;
@@ -114,8 +113,7 @@ Reference reference_of(const Problem& problem) {
   Reference reference{mean(finest)};
   for (const Track& track : finest)
     reference.error = std::max(reference.error, problem.errors(track, reference.track).front().second);
-  const std::size_t others = std::max<std::size_t>(finest.size() - 1, 1);  // a trial may have one setting
-  reference.error /= std::sqrt(static_cast<double>(others));
+  reference.error = error_of_mean(reference.error, finest.size());
   return reference;
 }
 
@@ -126,8 +124,7 @@ Track exact_track(const Problem& problem, const std::vector<double>& times) {
   return track;
 }
 
-// Errors of the mean, by how much a run differs from it, and how uncertain that leaves the mean: as the mean
-// holds the run, the deviation is d sqrt(n / (n - 1)), that of the mean d / sqrt(n - 1).
+// Errors of the mean, by how much a run differs from it, and how uncertain that leaves the mean.
 Errors errors_of(const Problem& problem, const std::vector<Track>& tracks, const Track& reference) {
   const Track found = mean(tracks);
   Errors errors = problem.errors(found, problem.exact ? exact_track(problem, found.times) : reference);
@@ -135,7 +132,7 @@ Errors errors_of(const Problem& problem, const std::vector<Track>& tracks, const
   std::vector<double> apart;
   for (const Track& track : tracks) apart.push_back(problem.errors(track, found).front().second);
   errors.emplace_back("one_run_from_the_mean", median(apart));
-  errors.emplace_back("uncertainty", median(apart) / std::sqrt(static_cast<double>(tracks.size() - 1)));
+  errors.emplace_back("uncertainty", error_of_mean(median(apart), tracks.size()));
   return errors;
 }
 

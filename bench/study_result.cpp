@@ -63,6 +63,10 @@ double RunResult::uncertainty() const {
   return 0;
 }
 
+double error_of_mean(double from_the_mean, std::size_t count) {
+  return from_the_mean / std::sqrt(static_cast<double>(std::max<std::size_t>(count, 2) - 1));
+}
+
 const RunResult* best_within(const ProblemResult& result, double error) {
   const RunResult* best = nullptr;
   for (const RunResult& run : result.runs)

@@ -24,6 +24,10 @@ struct ProblemResult {
   std::vector<RunResult> runs;
 };
 
+/// How far a mean of `count` results may be off, from how far results are from that mean. As it holds each of
+/// them, their deviation is d sqrt(n / (n - 1)), that of the mean d / sqrt(n - 1); d itself for one result.
+double error_of_mean(double from_the_mean, std::size_t count);
+
 /// The run that takes least time among those within `error` for certain, null where there is none: its error,
 /// what chance may add and what the reference may be off by come to no more.
 const RunResult* best_within(const ProblemResult& result, double error);
