@@ -534,6 +534,23 @@ TEST(Report, A_picture_shows_points_where_they_are) {
             std::string::npos);
 }
 
+// The closing thread from corner to corner goes through a ring beside it; elements may be drawn from either
+// end.
+TEST(Report, A_picture_leads_threads_through_their_rings) {
+  ResultModel model = square_model();
+  model.joints = {{1, 0}, {1, 0}};
+  Frame frame = square_frame(1);
+  frame.joint_element = {4, 4};
+  frame.joint_waypoint = {{0.2, 0.5, 0}, {0.5, 0.8, 0}};
+  const std::string way = "M50 150L70 100L100 70L150 50", back = "M150 50L100 70L70 100L50 150";
+  PictureSet set = front_view(model, frame);
+  EXPECT_NE(net_picture(set, frame, "", "b").find(way), std::string::npos);
+  for (Chain& chain : set.chains) std::reverse(chain.nodes.begin(), chain.nodes.end());
+  EXPECT_NE(net_picture(set, frame, "", "b").find(back), std::string::npos);
+  frame.active[4] = 0;
+  EXPECT_EQ(net_picture(set, frame, "", "b").find("70 100"), std::string::npos) << "not there yet";
+}
+
 TEST(Report, What_a_ball_hides_is_drawn_before_it) {
   ResultModel model = square_model();
   const Frame frame = square_frame(1);
@@ -708,6 +725,22 @@ TEST(Report, The_data_of_the_turnable_net_read_back) {
   EXPECT_EQ(view["nodes"], 4);
   EXPECT_EQ(view["positions"].get<std::string>().size(), 11u * 4 * 3 * 2 * 4 / 3);
   EXPECT_EQ(view["thinned"], false);
+  EXPECT_EQ(view["waypoints"], "");
+}
+
+// What page.js draws with: for each joint the number of its element among those shown, and a place in steps.
+TEST(Report, The_turnable_net_leads_threads_through_their_rings) {
+  const Scratch scratch;
+  ResultModel model = square_model();
+  model.joints = {{1, 0}};
+  Frame frame = square_frame(1);
+  frame.joint_element = {4};
+  frame.joint_waypoint = {{0, 1, 0}};
+  { Recorder(scratch.path, model, {}).frame(frame); }
+  const Result result(scratch.path);
+  const auto view = nlohmann::json::parse(net_view_json(result, result.model(), Camera()));
+  const std::uint8_t expected[] = {4, 0, 0, 0, 65000 % 256, 65000 / 256, 0, 0};
+  EXPECT_EQ(view["waypoints"], html::base64(expected));
 }
 
 TEST(Report, A_run_without_a_summary_is_still_shown) {

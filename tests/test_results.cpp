@@ -27,6 +27,7 @@
 #include "output/result_reader.hpp"
 #include "output/summary_json.hpp"
 #include "output/text_file.hpp"
+#include "output/ways.hpp"
 #include "output/xdmf.hpp"
 #include "support/file_error.hpp"
 
@@ -45,7 +46,7 @@ struct Scratch {
   ~Scratch() { fs::remove_all(path); }
 };
 
-/// A thread of `nodes` nodes with two rings and a ball.
+/// A thread of `nodes` nodes with two rings, which slide on it, and a ball.
 ResultModel small_model(int nodes) {
   ResultModel model;
   model.case_name = "small";
@@ -67,6 +68,7 @@ ResultModel small_model(int nodes) {
   for (int i = 0; i < nodes; ++i) model.node_mass.push_back(1.0 / (3 + i));
   model.parts = {{"net", "main", false}, {"thread", "closing", true}};
   model.rings = {{"r1", 0.05, 0.002}, {"r2", 0.06, 0.003}};
+  model.joints = {{1, 1}, {1, 0}};
   model.balls = {{"target", Vec3(1, 2, 1.0 / 3), 0.75}};
   model.masses = {{"m1.launcher", nodes - 1, 0.5}};
   model.closing_time = 0.1;
@@ -97,6 +99,10 @@ Frame small_frame(const ResultModel& model, int k) {
     frame.ring_center.emplace_back(x, x / 3, 1);
     frame.ring_normal.emplace_back(0, std::sin(x), std::cos(x));
     frame.ring_force.emplace_back(x * x, -x, 0);
+  }
+  for (std::size_t j = 0; j < model.joints.size(); ++j) {
+    frame.joint_element.push_back(j > 0 && nodes > 4 && k > 0 ? 3 : 1);
+    frame.joint_waypoint.emplace_back(k, static_cast<double>(j) / 3, -k / 7.0);
   }
   std::vector<double> terms;
   for (std::size_t i = 0; i < Energies::names().size(); ++i) {
@@ -162,7 +168,8 @@ bool same_bits(const Frame& a, const Frame& b) {
          same_bits(a.contact_force, b.contact_force) && same_bits(a.tension, b.tension) &&
          same_bits(a.strain, b.strain) && same_bits(a.active, b.active) &&
          same_bits(a.ring_center, b.ring_center) && same_bits(a.ring_normal, b.ring_normal) &&
-         same_bits(a.ring_force, b.ring_force) && same_bits(a.energy.values(), b.energy.values());
+         same_bits(a.ring_force, b.ring_force) && same_bits(a.joint_element, b.joint_element) &&
+         same_bits(a.joint_waypoint, b.joint_waypoint) && same_bits(a.energy.values(), b.energy.values());
 }
 
 TEST(Results, ModelComesBack) {
@@ -201,6 +208,10 @@ TEST(Results, PartsAndBodiesComeBack) {
   EXPECT_EQ(read.rings[1].name, "r2");
   EXPECT_EQ(read.rings[1].radius, 0.06);
   EXPECT_EQ(read.rings[1].wire_radius, 0.003);
+  ASSERT_EQ(read.joints.size(), 2u);
+  EXPECT_EQ(read.joints[0].part, 1);
+  EXPECT_EQ(read.joints[0].ring, 1);
+  EXPECT_EQ(read.joints[1].ring, 0);
   ASSERT_EQ(read.balls.size(), 1u);
   EXPECT_EQ(read.balls[0].center, Vec3(1, 2, 1.0 / 3));
   EXPECT_EQ(read.balls[0].radius, 0.75);
@@ -235,6 +246,7 @@ TEST(Results, SceneWithoutRingsBallsAndProbes) {
   const Scratch scratch;
   ResultModel model = small_model(3);
   model.rings.clear();
+  model.joints.clear();
   model.balls.clear();
   model.masses.clear();
   model.probes.clear();
@@ -250,6 +262,7 @@ TEST(Results, SceneWithoutRingsBallsAndProbes) {
   EXPECT_FALSE(result.model().closing_time);
   EXPECT_TRUE(result.probe_times().empty());
   EXPECT_FALSE(fs::exists(scratch.path / "rings.xdmf"));
+  EXPECT_FALSE(fs::exists(scratch.path / "ways.xdmf"));
   EXPECT_FALSE(fs::exists(scratch.path / "balls.xdmf"));
 }
 
@@ -360,6 +373,12 @@ TEST(Results, FrameOfTheWrongSizeIsADefect) {
   Frame frame = small_frame(model, 0);
   frame.strain.pop_back();
   EXPECT_THROW(recorder.frame(frame), Error);
+  for (const auto& drop :
+       {+[](Frame& f) { f.joint_element.pop_back(); }, +[](Frame& f) { f.joint_waypoint.pop_back(); }}) {
+    frame = small_frame(model, 0);
+    drop(frame);
+    EXPECT_THROW(recorder.frame(frame), Error);
+  }
   EXPECT_THROW(recorder.probes(0, std::vector<double>{1}), Error);
   recorder.frame(small_frame(model, 0));
   EXPECT_EQ(Result(scratch.path).frames(), 1);
@@ -504,6 +523,7 @@ TEST(Results, OneIndexNodeHoldsAllChunks) {
   const Hdf5 file(scratch.path / "run.vtkhdf");
   for (const char* name :
        {"/VTKHDF/Points", "/VTKHDF/CellData/tension", "/VTKHDF/CellData/active", "/cinch/rings/center",
+        "/cinch/joints/element", "/cinch/joints/waypoint", "/cinch/ways/points", "/cinch/ways/tension",
         "/cinch/step", "/cinch/energy/kinetic", "/cinch/probes/values"}) {
     const hid_t set = H5Dopen2(file.file, name, H5P_DEFAULT), space = H5Dget_space(set);
     hsize_t chunks = 0;
@@ -616,7 +636,52 @@ TEST(Results, XdmfSelectsTheRightRows) {
   EXPECT_GT(well_formed_tags(rings), 20);
   EXPECT_NE(rings.find("run.vtkhdf:/cinch/rings/force|2 0 0:1 1 1:1 2 3:3 2 3<"), std::string::npos);
   EXPECT_GT(well_formed_tags(read_text_file(scratch.path / "balls.xdmf")), 5);
+
+  const std::string ways = read_text_file(scratch.path / "ways.xdmf");
+  EXPECT_GT(well_formed_tags(ways), 20);
+  EXPECT_NE(ways.find("NumberOfElements=\"4\""), std::string::npos);
+  EXPECT_NE(ways.find("run.vtkhdf:/cinch/ways/connectivity<"), std::string::npos);
+  EXPECT_NE(ways.find("run.vtkhdf:/cinch/ways/points|10 0:1 1:5 3:15 3<"), std::string::npos);
+  EXPECT_NE(ways.find("run.vtkhdf:/cinch/ways/tension|8:1:4:12<"), std::string::npos);
   for (const auto& entry : fs::directory_iterator(scratch.path)) EXPECT_NE(entry.path().extension(), ".tmp");
+}
+
+// A thread of three elements between others, with two rings: both in one element, then one beyond it.
+TEST(Results, WaysOfSlidingThreadsGoThroughTheirRings) {
+  ResultModel model;
+  model.elements = {{5, 6}, {0, 1}, {1, 2}, {2, 3}, {6, 7}};
+  model.element_part = {0, 1, 1, 1, 2};
+  model.joints = {{1, 0}, {1, 1}};
+  const Ways ways(model);
+  ASSERT_EQ(ways.points(), 6u);
+  ASSERT_EQ(ways.segments(), 5u);
+  EXPECT_EQ(ways.connectivity(), (std::vector<std::int64_t>{0, 1, 1, 2, 2, 3, 3, 4, 4, 5}));
+
+  Frame frame;
+  for (int i = 0; i < 8; ++i) frame.position.emplace_back(i, 0, 0);
+  frame.tension = {9, 1, 2, 3, 9};
+  frame.active = {0, 1, 1, 0, 0};
+  frame.joint_waypoint = {{1.2, 7, 0}, {1.4, 8, 0}};
+  frame.joint_element = {2, 2};
+  const auto along = [&] {
+    std::vector<double> x;
+    for (const Vec3& point : ways.trace(frame).points) x.push_back(point.x());
+    return x;
+  };
+  EXPECT_EQ(along(), (std::vector<double>{0, 1, 1.2, 1.4, 2, 3}));
+  EXPECT_EQ(ways.trace(frame).tension, (std::vector<double>{1, 2, 2, 2, 3}));
+  EXPECT_EQ(ways.trace(frame).active, (std::vector<std::uint8_t>{1, 1, 1, 1, 0}));
+  frame.joint_element = {1, 3};
+  EXPECT_EQ(along(), (std::vector<double>{0, 1.2, 1, 2, 1.4, 3}));
+  EXPECT_EQ(ways.trace(frame).tension, (std::vector<double>{1, 1, 2, 3, 3}));
+}
+
+TEST(Results, WaysOfSeveralThreadsDoNotJoin) {
+  ResultModel model;
+  model.elements = {{0, 1}, {2, 3}};
+  model.element_part = {0, 1};
+  model.joints = {{0, 0}, {1, 0}};
+  EXPECT_EQ(Ways(model).connectivity(), (std::vector<std::int64_t>{0, 1, 1, 2, 3, 4, 4, 5}));
 }
 
 // ---------------------------------------------------------------------------------------------------------------
@@ -698,6 +763,8 @@ TEST(Results, CompareSeesEveryFieldOfAFrame) {
                                                          [](Frame& f) { f.ring_center[1].z() += 1; },
                                                          [](Frame& f) { f.ring_normal[1].z() += 1; },
                                                          [](Frame& f) { f.ring_force[1].z() += 1; },
+                                                         [](Frame& f) { f.joint_element[1] = 3; },
+                                                         [](Frame& f) { f.joint_waypoint[1].y() += 1; },
                                                          [](Frame& f) { f.energy.residual += 1; }};
   for (const auto& change : changes) {
     record(scratch.path / "b", model, 2, false, change);
@@ -950,6 +1017,10 @@ TEST(Results, WhatDoesNotFitTogetherIsRefused) {
       {"/cinch/parts/kind (unexpected length)",
        [](hid_t f) { put(f, "/cinch/balls/name", "/cinch/parts/kind"); }},
       {"/cinch/rings/radius", [](hid_t f) { H5Ldelete(f, "/cinch/rings/radius", H5P_DEFAULT); }},
+      {"use its joints (no such thread or ring)",
+       [](hid_t f) { set_first<std::int32_t>(f, "/cinch/joints/ring", H5T_NATIVE_INT32, 2); }},
+      {"use its joints (no such thread or ring)",
+       [](hid_t f) { set_first<std::int32_t>(f, "/cinch/joints/part", H5T_NATIVE_INT32, -1); }},
       {"result format 9; this program reads format 1", [](hid_t f) { set_format_version(f, 9); }},
   };
   for (const auto& [words, damage] : damages) {

@@ -688,6 +688,64 @@ TEST(SlidingJoint, MouthClosesAsWithContactOfManyElements) {
   EXPECT_NEAR(area[1], area[0], 0.01);
 }
 
+// ---- what frames tell
+
+// From node to node through the waypoints that lie in an element, m.
+double length_of_way(const ResultModel& model, const Frame& frame, Index element) {
+  double length = 0;
+  Vec3 from = frame.position[at(model.elements[at(element)][0])];
+  const auto through = waypoints_in(frame, element);
+  for (const Vec3& to : through) length += (to - from).norm(), from = to;
+  return length + (frame.position[at(model.elements[at(element)][1])] - from).norm();
+}
+
+// The way that a frame shows is the one that pulls, but for what rings move in a step: a look does not move
+// waypoints. Rings that share an element are lifted a little from each other.
+TEST(SlidingJoint, AFrameShowsTheWayThatPulls) {
+  int bent = 0;
+  for (const bool net : {false, true}) {
+    Scene scene = net ? closing_net(12) : ring_pull(13);
+    scene.time.joint_steps = 1;
+    if (!net) scene.time.step = 5e-5;
+    Simulation sim(scene, 1);
+    const ResultModel model = sim.result_model();
+    ASSERT_EQ(model.joints.size(), net ? 16u : 1u);
+    for (int i = 1; i <= 20; ++i) {
+      run_until(sim, 0.015 * i);
+      const Frame frame = sim.frame();
+      for (std::size_t j = 0; j < model.joints.size(); ++j) {
+        const Index e = frame.joint_element[j];
+        const auto ring = at(model.joints[j].ring);
+        EXPECT_EQ(model.element_part[at(e)], model.joints[j].part);
+        const Vec3 offset = frame.joint_waypoint[j] - frame.ring_center[ring];
+        const double opening = sim.model().joints[j].opening;
+        ASSERT_LE(offset.norm(), opening * (1 + 1e-9));
+        if (frame.strain[at(e)] <= 0) continue;
+        const double length = model.rest_length[at(e)] * (1 + frame.strain[at(e)]);
+        const bool alone = waypoints_in(frame, e).size() == 1;
+        EXPECT_NEAR(length_of_way(model, frame, e), length, (alone ? 3e-5 : 2e-3) * length) << i << " " << j;
+        const auto& ends = model.elements[at(e)];
+        bent += length > 1.001 * (frame.position[at(ends[1])] - frame.position[at(ends[0])]).norm();
+      }
+    }
+  }
+  EXPECT_GT(bent, 30);
+}
+
+TEST(SlidingJoint, BeforeItsThreadIsThereAJointStandsAtItsRing) {
+  Scene scene = closing_net(12);
+  scene.closing.time = 0.01;
+  Simulation sim(scene, 1);
+  run_until(sim, 0.002);
+  const Frame before = sim.frame(sim.look());
+  ASSERT_EQ(before.joint_element.size(), 16u);
+  EXPECT_TRUE(std::is_sorted(before.joint_element.begin(), before.joint_element.end()));
+  for (std::size_t j = 0; j < 16; ++j)
+    EXPECT_EQ(before.joint_waypoint[j], before.ring_center[at(sim.result_model().joints[j].ring)]);
+  run_until(sim, 0.01);
+  EXPECT_EQ(sim.frame(sim.look()).joint_element, before.joint_element);
+}
+
 // ---- hosts that fold
 
 // The two ends of a slack host meet at 0.1 m/s and are pushed apart by the ring's body. `before`: parts that

@@ -1,5 +1,6 @@
 #include "base/result.hpp"
 
+#include <algorithm>
 #include <stdexcept>
 #include <utility>
 
@@ -45,6 +46,13 @@ Energies Energies::from_values(const std::vector<double>& values) {
   Energies energies;
   for (std::size_t i = 0; i < values.size(); ++i) energies.*terms()[i].second = values[i];
   return energies;
+}
+
+std::span<const Vec3> waypoints_in(const Frame& frame, Index element) {
+  const auto [first, last] =
+      std::equal_range(frame.joint_element.begin(), frame.joint_element.end(), element);
+  const auto before = static_cast<std::size_t>(first - frame.joint_element.begin());
+  return std::span(frame.joint_waypoint).subspan(before, static_cast<std::size_t>(last - first));
 }
 
 }  // namespace cinch

@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <map>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -36,6 +37,11 @@ struct ResultModel {
     double radius = 0, wire_radius = 0;
   };
   std::vector<Ring> rings;
+  struct Joint {
+    int part = 0;    ///< the thread: index into parts
+    Index ring = 0;  ///< that slides on it
+  };
+  std::vector<Joint> joints;  ///< sliding ones, thread by thread, in their order along it
   struct Ball {
     std::string name;
     Vec3 center = Vec3::Zero();
@@ -79,8 +85,13 @@ struct Frame {
   std::vector<std::uint8_t>
       active;  ///< 1 for each element that exists now (closing threads: from the closing time)
   std::vector<Vec3> ring_center, ring_normal, ring_force;  ///< m, -, N: every ring
+  std::vector<Index> joint_element;  ///< every joint: the element in which its ring lies, ascending
+  std::vector<Vec3> joint_waypoint;  ///< m, every joint: where its thread goes through the ring
   Energies energy;
 };
+
+/// Where threads go through the rings that lie in an element, in order from its first node; empty for most.
+std::span<const Vec3> waypoints_in(const Frame& frame, Index element);
 
 struct Event {
   double time = 0;

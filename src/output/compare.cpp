@@ -111,7 +111,7 @@ class Comparer {
 
   const Result &a_, &b_;
   Comparison out_;
-  bool same_mesh_ = true;
+  bool same_mesh_ = true, same_joints_ = true;
   std::vector<std::pair<size_t, size_t>> rings_;  // of the same name
   std::map<string, size_t> index_;
   std::vector<Meter> meters_;  // in the order in which the fields were met
@@ -219,6 +219,7 @@ void Comparer::bodies() {
   if (same("rings", a.rings.size(), b.rings.size()) && names_of(a.rings) != names_of(b.rings))
     differ("the rings have different names");
   rings_ = same_names(a.rings, b.rings);
+  same_joints_ = same("sliding joints", a.joints.size(), b.joints.size());
   for (const auto& [i, j] : rings_) {
     meter("ring radius", "m").pair(a.rings[i].radius, b.rings[j].radius, -1, kNan, i);
     meter("ring wire radius", "m").pair(a.rings[i].wire_radius, b.rings[j].wire_radius, -1, kNan, i);
@@ -265,6 +266,9 @@ void Comparer::mesh_frame(const Frame& a, const Frame& b, int k) {
   list("tension", "N", a.tension, b.tension, k, t);
   list("strain", "", a.strain, b.strain, k, t);
   list("active", "", a.active, b.active, k, t);
+  if (!same_joints_) return;
+  list("joint element", "", a.joint_element, b.joint_element, k, t);
+  vectors("joint waypoint", "m", a.joint_waypoint, b.joint_waypoint, k, t);
 }
 
 void Comparer::ring_frame(const Frame& a, const Frame& b, int k) {

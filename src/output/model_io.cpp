@@ -94,6 +94,10 @@ void write_parts(h5::File& file, const ResultModel& model) {
   write_column(file, rings + "/wire_radius",
                column<double>(model.rings, [](auto& r) { return r.wire_radius; }), "m");
 
+  const string joints = kJoints;
+  write_column(file, joints + "/part", column<std::int32_t>(model.joints, [](auto& j) { return j.part; }));
+  write_column(file, joints + "/ring", column<std::int32_t>(model.joints, [](auto& j) { return j.ring; }));
+
   file.write_texts(balls + "/name", column<string>(model.balls, [](auto& b) { return b.name; }));
   const auto centers = column<Vec3>(model.balls, [](auto& b) { return b.center; });
   file.write<double>(balls + "/center", flat(centers), {centers.size(), 3}, "m");
@@ -165,6 +169,18 @@ void read_parts(const h5::File& file, ResultModel& model) {
   }
 }
 
+void read_joints(const h5::File& file, ResultModel& model) {
+  if (!file.exists(kJoints)) return;  // of earlier versions
+  const auto part = file.read<std::int32_t>(string(kJoints) + "/part");
+  const auto ring = read_column<std::int32_t>(file, string(kJoints) + "/ring", part.size());
+  const auto parts = static_cast<int>(model.parts.size()), rings = static_cast<int>(model.rings.size());
+  for (std::size_t i = 0; i < part.size(); ++i) {
+    if (std::min(part[i], ring[i]) < 0 || part[i] >= parts || ring[i] >= rings)
+      file.fail("use its joints (no such thread or ring)");
+    model.joints.push_back({part[i], ring[i]});
+  }
+}
+
 void read_bodies(const h5::File& file, ResultModel& model) {
   const auto rings = file.read_texts(string(kRings) + "/name");
   const auto ring_radius = read_column<double>(file, string(kRings) + "/radius", rings.size());
@@ -219,6 +235,7 @@ ResultModel read_model(const h5::File& file) {
   read_mesh(file, model);
   read_parts(file, model);
   read_bodies(file, model);
+  read_joints(file, model);
   read_probe_columns(file, model);
   return model;
 }

@@ -14,6 +14,7 @@
 #include "output/result_layout.hpp"
 #include "output/summary_json.hpp"
 #include "output/text_file.hpp"
+#include "output/ways.hpp"
 #include "output/xdmf.hpp"
 
 namespace cinch {
@@ -132,6 +133,37 @@ struct RingSeries {
   Reals center, normal, force;
 };
 
+/// Sliding joints, frame by frame, and the ways of their threads, which follow from them: for viewers.
+struct JointSeries {
+  JointSeries(h5::File& file, Ways lines, std::size_t joints, const Recorder::Options& options)
+      : ways(std::move(lines)),
+        element(file, kJointElement, slabs({joints}, 4, options, "")),
+        waypoint(file, kJointWaypoint, slabs({joints, 3}, 24, options, "m")),
+        points(file, kWayPoints, rows_of(ways.points(), 3, 8, options, "m")),
+        tension(file, kWayTension, rows_of(ways.segments(), 1, 8, options, "N")),
+        active(file, kWayActive, rows_of(ways.segments(), 1, 1, options, "1")) {
+    const auto connectivity = ways.connectivity();
+    file.write<std::int64_t>(kWayConnectivity, connectivity, {connectivity.size()});
+  }
+  static h5::SeriesLayout slabs(h5::Shape row, hsize_t bytes, const Recorder::Options& options,
+                                const char* unit) {
+    const hsize_t rows = chunk_rows(1, row[0] * bytes, options);
+    return {std::move(row), rows, options.compress, unit};
+  }
+  void append(const Frame& frame) {
+    element.append(frame.joint_element);
+    waypoint.append(flat(frame.joint_waypoint));
+    const Ways::Trace trace = ways.trace(frame);
+    points.append(flat(trace.points));
+    tension.append(trace.tension);
+    active.append(trace.active);
+  }
+  Ways ways;
+  h5::Series<std::int32_t> element;
+  Reals waypoint, points, tension;
+  Bytes active;
+};
+
 void remove_file(const std::filesystem::path& file) {
   std::error_code error;
   std::filesystem::remove(file, error);
@@ -144,8 +176,8 @@ void remove_old_report(const std::filesystem::path& directory) {
 }
 
 void remove_old_run(const std::filesystem::path& directory) {
-  for (const char* name :
-       {kResultFile, kNetXdmfFile, kRingsXdmfFile, kBallsXdmfFile, kSummaryFile, kCheckpointFile})
+  for (const char* name : {kResultFile, kNetXdmfFile, kRingsXdmfFile, kBallsXdmfFile, kWaysXdmfFile,
+                           kSummaryFile, kCheckpointFile})
     remove_file(directory / name);
   remove_old_report(directory);
 }
@@ -160,12 +192,14 @@ h5::File create_file(const std::filesystem::path& directory, bool draft) {
   return h5::File::create(directory / kResultFile);
 }
 
-void require_sizes(const Frame& frame, NetSize net, std::size_t rings) {
+void require_sizes(const Frame& frame, NetSize net, const ResultModel& model) {
+  const std::size_t rings = model.rings.size(), joints = model.joints.size();
   const bool fits = frame.position.size() == net.nodes && frame.velocity.size() == net.nodes &&
                     frame.contact_force.size() == net.nodes && frame.tension.size() == net.elements &&
                     frame.strain.size() == net.elements && frame.active.size() == net.elements &&
                     frame.ring_center.size() == rings && frame.ring_normal.size() == rings &&
-                    frame.ring_force.size() == rings;
+                    frame.ring_force.size() == rings && frame.joint_element.size() == joints &&
+                    frame.joint_waypoint.size() == joints;
   if (!fits) throw Error(ExitCode::internal, "recorder: a frame does not have the model's sizes");
 }
 
@@ -191,6 +225,7 @@ struct Recorder::Impl {
   Integers step_numbers;
   std::vector<Reals> energy;
   std::optional<RingSeries> rings;
+  std::optional<JointSeries> joints;
   std::optional<Reals> probe_times, probe_values;
   std::optional<h5::Counter> probe_rows;
   std::vector<double> times;                        // s, of all frames
@@ -212,12 +247,16 @@ Recorder::Impl::Impl(const std::filesystem::path& folder, ResultModel descriptio
                      bool draft)
     : directory(folder),
       model(std::move(description)),
-      size{model.node_mass.size(), model.elements.size()},
+      size{model.node_mass.size(), model.elements.size(), 0, 0},
       file(create_file(folder, draft)),
       steps(file, options.frames),
       frame_count(file, kSteps, kFrameCount),
       net(file, size.nodes, size.elements, options),
       step_numbers(file, kStepNumbers, numbers(options.frames)) {
+  if (!model.joints.empty()) {
+    joints.emplace(file, Ways(model), model.joints.size(), options);
+    size.way_points = joints->ways.points(), size.way_segments = joints->ways.segments();
+  }
   write_description();
   for (const std::string& term : Energies::names())
     energy.emplace_back(file, kEnergy + term, numbers(options.frames, "J"));
@@ -239,7 +278,7 @@ void Recorder::Impl::write_description() {
 }
 
 void Recorder::Impl::append(const Frame& frame) {
-  require_sizes(frame, size, model.rings.size());
+  require_sizes(frame, size, model);
   const auto k = static_cast<std::int64_t>(times.size());
   steps.append(frame.time, k * static_cast<std::int64_t>(size.nodes),
                k * static_cast<std::int64_t>(size.elements));
@@ -248,6 +287,7 @@ void Recorder::Impl::append(const Frame& frame) {
   const auto energies = frame.energy.values();
   for (std::size_t i = 0; i < energies.size(); ++i) energy[i].append(energies[i]);
   if (rings) rings->append(frame);
+  if (joints) joints->append(frame);
   times.push_back(frame.time);
 }
 

@@ -7,6 +7,10 @@
 //   CellData/tension, strain, active [T E]  CellData/part [E]
 //   Steps  attribute NSteps = T, raised only when a frame is complete on disk
 // /cinch   attributes format, case, title, version, ..., closing_time     what VTK has no place for
+//   rings/center, normal, force [T, R, 3]
+//   joints/part, ring [J]  joints/element [T, J]  joints/waypoint [T, J, 3]     sliding ones
+//   ways/connectivity [2 S]  ways/points [T P, 3]  ways/tension, active [T S]   their threads, through the
+//   rings
 #pragma once
 
 namespace cinch::layout {
@@ -18,6 +22,7 @@ inline constexpr char kResultFile[] = "run.vtkhdf";
 inline constexpr char kNetXdmfFile[] = "run.xdmf";
 inline constexpr char kRingsXdmfFile[] = "rings.xdmf";
 inline constexpr char kBallsXdmfFile[] = "balls.xdmf";
+inline constexpr char kWaysXdmfFile[] = "ways.xdmf";
 inline constexpr char kSummaryFile[] = "summary.json";
 inline constexpr char kCheckpointFile[] = "checkpoint.h5";
 inline constexpr char kReportFile[] = "report.html";
@@ -42,6 +47,13 @@ inline constexpr char kRings[] = "/cinch/rings";
 inline constexpr char kRingCenter[] = "/cinch/rings/center";
 inline constexpr char kRingNormal[] = "/cinch/rings/normal";
 inline constexpr char kRingForce[] = "/cinch/rings/force";
+inline constexpr char kJoints[] = "/cinch/joints";
+inline constexpr char kJointElement[] = "/cinch/joints/element";
+inline constexpr char kJointWaypoint[] = "/cinch/joints/waypoint";
+inline constexpr char kWayPoints[] = "/cinch/ways/points";
+inline constexpr char kWayConnectivity[] = "/cinch/ways/connectivity";
+inline constexpr char kWayTension[] = "/cinch/ways/tension";
+inline constexpr char kWayActive[] = "/cinch/ways/active";
 inline constexpr char kBalls[] = "/cinch/balls";
 inline constexpr char kMasses[] = "/cinch/masses";
 inline constexpr char kParts[] = "/cinch/parts";

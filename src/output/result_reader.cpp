@@ -35,6 +35,8 @@ int complete_frames(const h5::File& file, const ResultModel& model) {
   if (!model.rings.empty()) {
     for (const char* name : {kRingCenter, kRingNormal, kRingForce}) limit(name, 1);
   }
+  if (!model.joints.empty())
+    for (const char* name : {kJointElement, kJointWaypoint}) limit(name, 1);
   for (const std::string& term : Energies::names()) limit(kEnergy + term, 1);
   limit(kTimes, 1);
   limit(kStepNumbers, 1);
@@ -94,8 +96,9 @@ struct Result::Impl {
     if (count > 0) read<double>(name, k, count, flat(list));
     return list;
   }
-  std::vector<Vec3> ring_vectors(const char* name, int k) const {
-    std::vector<Vec3> list(model.rings.size());
+  /// Row k of an array with `count` vectors in a row.
+  std::vector<Vec3> vector_row(const char* name, int k, std::size_t count) const {
+    std::vector<Vec3> list(count);
     if (!list.empty()) read<double>(name, k, 1, flat(list));
     return list;
   }
@@ -128,6 +131,7 @@ Frame Result::frame(int k) const {
                     std::to_string(frames()) + " frames)");
   }
   const std::size_t nodes = model().node_mass.size(), elements = model().elements.size();
+  const std::size_t rings = model().rings.size(), joints = model().joints.size();
   Frame frame;
   frame.time = impl_->times[static_cast<std::size_t>(k)];
   frame.step = impl_->steps[static_cast<std::size_t>(k)];
@@ -140,9 +144,12 @@ Frame Result::frame(int k) const {
   impl_->read<double>(kTension, k, elements, frame.tension);
   impl_->read<double>(kStrain, k, elements, frame.strain);
   impl_->read<std::uint8_t>(kActive, k, elements, frame.active);
-  frame.ring_center = impl_->ring_vectors(kRingCenter, k);
-  frame.ring_normal = impl_->ring_vectors(kRingNormal, k);
-  frame.ring_force = impl_->ring_vectors(kRingForce, k);
+  frame.ring_center = impl_->vector_row(kRingCenter, k, rings);
+  frame.ring_normal = impl_->vector_row(kRingNormal, k, rings);
+  frame.ring_force = impl_->vector_row(kRingForce, k, rings);
+  frame.joint_element.resize(joints);
+  if (joints > 0) impl_->read<Index>(kJointElement, k, 1, frame.joint_element);
+  frame.joint_waypoint = impl_->vector_row(kJointWaypoint, k, joints);
   std::vector<double> terms;
   for (const std::string& term : Energies::names()) terms.push_back(impl_->energy_term(term, k));
   frame.energy = Energies::from_values(terms);

@@ -79,6 +79,12 @@ string points_topology(size_t count) {
          "</DataItem></Topology>\n";
 }
 
+string lines_topology(const string& file, const char* path, size_t lines) {
+  return "<Topology TopologyType=\"Polyline\" NodesPerElement=\"2\" NumberOfElements=\"" +
+         std::to_string(lines) + "\">" +
+         data_item(std::to_string(2 * lines), Kind::integer64, file + ":" + path) + "</Topology>\n";
+}
+
 string geometry(const string& item) { return "<Geometry GeometryType=\"XYZ\">" + item + "</Geometry>\n"; }
 
 /// A ball as triangles between circles of latitude: node coordinates and node numbers.
@@ -121,9 +127,7 @@ string net_xdmf(const string& case_name, NetSize net, std::span<const double> ti
                 const string& hdf5_name) {
   const size_t nodes = net.nodes, elements = net.elements, frames = times.size();
   const string file = escape_markup(hdf5_name), e = std::to_string(elements);
-  const string topology =
-      "<Topology TopologyType=\"Polyline\" NodesPerElement=\"2\" NumberOfElements=\"" + e + "\">" +
-      data_item(std::to_string(2 * elements), Kind::integer64, file + ":" + kConnectivity) + "</Topology>\n";
+  const string topology = lines_topology(file, kConnectivity, elements);
   const string part = attribute("part", false, true, data_item(e, Kind::integer32, file + ":" + kPart));
   auto nodal = [&](const char* path, size_t k) {
     return frame_item(file, path, Kind::real, k, nodes, frames, true);
@@ -160,6 +164,23 @@ string rings_xdmf(const ResultModel& model, std::span<const double> times, const
   return text + "</Grid>\n" + kTail;
 }
 
+string ways_xdmf(const string& case_name, NetSize net, std::span<const double> times,
+                 const string& hdf5_name) {
+  const size_t points = net.way_points, segments = net.way_segments, frames = times.size();
+  const string file = escape_markup(hdf5_name), topology = lines_topology(file, kWayConnectivity, segments);
+  const auto on_segments = [&](const char* path, Kind kind, size_t k) {
+    return frame_item(file, path, kind, k, segments, frames, false);
+  };
+  string text = kHead + series_head(case_name + " ways");
+  for (size_t k = 0; k < frames; ++k) {
+    text += grid_head("ways", times[k]) + topology;
+    text += geometry(frame_item(file, kWayPoints, Kind::real, k, points, frames, true));
+    text += attribute("tension", false, true, on_segments(kWayTension, Kind::real, k));
+    text += attribute("active", false, true, on_segments(kWayActive, Kind::byte, k)) + "</Grid>\n";
+  }
+  return text + "</Grid>\n" + kTail;
+}
+
 string balls_xdmf(const ResultModel& model) {
   Sphere sphere;
   for (const auto& ball : model.balls) add_ball(sphere, ball);
@@ -181,6 +202,8 @@ void write_xdmf(const std::filesystem::path& directory, const ResultModel& model
   if (!model.rings.empty()) {
     replace_text_file(directory / kRingsXdmfFile, rings_xdmf(model, times, kResultFile));
   }
+  if (!model.joints.empty())
+    replace_text_file(directory / kWaysXdmfFile, ways_xdmf(model.case_name, net, times, kResultFile));
   if (!model.balls.empty()) replace_text_file(directory / kBallsXdmfFile, balls_xdmf(model));
 }
 

@@ -181,6 +181,21 @@ Vec3 Look::ring_force(Index ring) const {
   return {f[0], f[1], f[2]};
 }
 
+Index Look::joint_element(const Model& whole, Index joint) const {
+  std::size_t t = 0;
+  while (whole.sliding_threads[t].joint_end <= joint) ++t;
+  const bool there = at(joint) < state_->joints.size();
+  return whole.sliding_first[t] +
+         (there ? state_->joints[at(joint)].element : whole.joint_element[at(joint)]);
+}
+
+Vec3 Look::joint_waypoint(const Model& whole, Index joint) const {
+  const Vec3 center = ring_center(whole.joints[at(joint)].ring);
+  if (at(joint) >= state_->joints.size()) return center;
+  const double* const offset = state_->joints[at(joint)].offset;
+  return center + Vec3(offset[0], offset[1], offset[2]);
+}
+
 std::vector<Vec3> Look::positions() const {
   std::vector<Vec3> all(at(assembly_->node_count()));
   for (std::size_t i = 0; i < all.size(); ++i) all[i] = position(static_cast<Index>(i));

@@ -40,6 +40,11 @@ class Look {
   Vec3 ring_normal(Index ring) const;
   Vec3 ring_force(Index ring) const;  ///< N
 
+  /// Of joint j of `whole`, the model with all that the scene ever has: where its ring lies, at first before
+  /// its thread is there, and where the thread goes through it, m.
+  Index joint_element(const Model& whole, Index joint) const;
+  Vec3 joint_waypoint(const Model& whole, Index joint) const;
+
   std::vector<Vec3> positions() const;
   std::vector<Vec3> ring_centers() const;
   std::vector<Vec3> contact_forces() const;

@@ -343,6 +343,11 @@ Frame Simulation::frame(const Look& now) {
     out.ring_normal.push_back(now.ring_normal(r));
     out.ring_force.push_back(now.ring_force(r));
   }
+  const Model& whole = preparation_.whole();
+  for (Index j = 0; j < static_cast<Index>(whole.joints.size()); ++j) {
+    out.joint_element.push_back(now.joint_element(whole, j));
+    out.joint_waypoint.push_back(now.joint_waypoint(whole, j));
+  }
   return out;
 }
 

@@ -35,6 +35,12 @@ ResultModel Simulation::result_model() const {
   for (const Part& part : assembly.parts) m.parts.push_back({kind_name(part.kind), part.name, part.closing});
   for (const AssemblyRing& ring : assembly.rings)
     m.rings.push_back({ring.name, ring.radius, ring.wire_radius});
+  for (std::size_t t = 0; t < whole.sliding_threads.size(); ++t) {
+    const kernel::SlidingThread& thread = whole.sliding_threads[t];
+    const int part = m.element_part[static_cast<std::size_t>(whole.sliding_first[t])];
+    for (Index j = thread.joint_begin; j < thread.joint_end; ++j)
+      m.joints.push_back({part, whole.joints[static_cast<std::size_t>(j)].ring});
+  }
   for (const AssemblyBall& ball : assembly.balls) m.balls.push_back({ball.name, ball.center, ball.radius});
   for (const NamedNode& named : assembly.named) m.masses.push_back({named.name, named.node, named.mass});
   if (preparation_.closing_step >= 0)

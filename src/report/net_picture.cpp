@@ -91,14 +91,35 @@ class Painter {
     return kind == "net" ? 'n' : kind == "mechanism" ? 't' : 'c';
   }
 
+  // A straight piece of an element.
+  struct Stroke {
+    std::size_t element;
+    Vec3 to;
+  };
+
+  // Of a chain from its first node on, through the rings that slide on its elements.
+  std::vector<Stroke> strokes(const Chain& chain) const {
+    std::vector<Stroke> all;
+    for (std::size_t k = 0; k < chain.elements.size(); ++k) {
+      const std::size_t e = at(chain.elements[k]);
+      const bool forward = model_.elements[e][0] == chain.nodes[k];
+      const auto through = waypoints_in(frame_, chain.elements[k]);
+      for (std::size_t i = 0; i < through.size(); ++i)
+        all.push_back({e, through[forward ? i : through.size() - 1 - i]});
+      all.push_back({e, frame_.position[at(chain.nodes[k + 1])]});
+    }
+    return all;
+  }
+
   void draw_chains() {
     for (const Chain& chain : set_.chains) {
       std::string* path = nullptr;  // the path that the pen is on
       Point last{};
       Seen from = set_.camera.see(frame_.position[at(chain.nodes[0])]);
-      for (std::size_t k = 0; k < chain.elements.size(); ++k) {
-        const Seen to = set_.camera.see(frame_.position[at(chain.nodes[k + 1])]);
-        const std::size_t e = at(chain.elements[k]);
+      const std::vector<Stroke> all = strokes(chain);
+      for (const Stroke& stroke : all) {
+        const Seen to = set_.camera.see(stroke.to);
+        const std::size_t e = stroke.element;
         std::string* wanted = frame_.active[e] ? &line_path(chain.part, e, from, to) : nullptr;
         const Point a = place(from), b = place(to);
         if (wanted != path) {
@@ -106,7 +127,7 @@ class Painter {
           if (wanted) *wanted += "M" + px(a[0]) + " " + px(a[1]), last = a;
           path = wanted;
         }
-        const bool end = k + 1 == chain.elements.size();
+        const bool end = &stroke == &all.back();
         if (path && (end || std::hypot(b[0] - last[0], b[1] - last[1]) >= kSmallestStep))
           line_to(*path, b), last = b;
         from = to;

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdint>
 #include <nlohmann/json.hpp>
+#include <unordered_map>
 
 #include "report/chains.hpp"
 #include "report/html.hpp"
@@ -65,13 +66,14 @@ struct Shown {
     nodes.push_back(node);
   }
   std::size_t bytes_of_a_frame(const ResultModel& model) const {
-    return (6 * nodes.size() + elements.size() + 12 * model.rings.size()) * 4 / 3;
+    return (6 * nodes.size() + elements.size() + 12 * model.rings.size() + 8 * model.joints.size()) * 4 / 3;
   }
   void fit(const std::vector<Frame>& frames) {
     const auto stretch = [&](const Vec3& p) { low = low.cwiseMin(p), high = high.cwiseMax(p); };
     for (const Frame& frame : frames) {
       for (const Index node : nodes) stretch(frame.position[at(node)]);
       for (const Vec3& center : frame.ring_center) stretch(center);
+      for (const Vec3& waypoint : frame.joint_waypoint) stretch(waypoint);
     }
     size = std::max(size, (high - low).maxCoeff());
   }
@@ -95,6 +97,21 @@ void add_elements(const ResultModel& model, const Shown& shown, Json& json) {
   json["segments"] = ends.text();
   json["families"] = families.text();
   json["thinned"] = shown.elements.size() < model.elements.size();
+}
+
+// Where threads go through rings, for elements that are shown: [element among those shown, place].
+void add_waypoints(const std::vector<Frame>& frames, const Shown& shown, Json& json) {
+  constexpr long nowhere = 65535;
+  std::unordered_map<Index, long> number;
+  for (std::size_t i = 0; i < shown.elements.size(); ++i) number[shown.elements[i]] = static_cast<long>(i);
+  Bytes waypoints;
+  for (const Frame& frame : frames)
+    for (std::size_t j = 0; j < frame.joint_element.size(); ++j) {
+      const auto found = number.find(frame.joint_element[j]);
+      waypoints.u16(found == number.end() ? nowhere : found->second);
+      shown.pack(frame.joint_waypoint[j], waypoints);
+    }
+  json["waypoints"] = waypoints.text();
 }
 
 void add_frames(const std::vector<Frame>& frames, const Shown& shown, Json& json) {
@@ -160,6 +177,7 @@ std::string net_view_json(const Result& result, const ResultModel& model, const 
   json["up"] = numbers(camera.up);
   add_elements(model, shown, json);
   add_frames(frames, shown, json);
+  add_waypoints(frames, shown, json);
   add_bodies(model, shown, json);
   return json.dump();
 }

@@ -134,10 +134,12 @@
     const segments = new Uint16Array(bytes(view.segments).buffer);
     const families = bytes(view.families), levels = bytes(view.levels);
     const rings = new Uint16Array(bytes(view.rings).buffer);
+    const waypoints = new Uint16Array(bytes(view.waypoints).buffer);
     const unit = view.size / view.steps, count = families.length;
+    const joints = waypoints.length / 4 / view.times.length;  // in each frame
     const line = new THREE.BufferGeometry();
-    line.setAttribute('position', new THREE.BufferAttribute(new Float32Array(count * 6), 3));
-    line.setAttribute('color', new THREE.BufferAttribute(new Float32Array(count * 6), 3));
+    line.setAttribute('position', new THREE.BufferAttribute(new Float32Array((count + joints) * 6), 3));
+    line.setAttribute('color', new THREE.BufferAttribute(new Float32Array((count + joints) * 6), 3));
     const lines = new THREE.LineSegments(line, new THREE.LineBasicMaterial({vertexColors: THREE.VertexColors}));
     lines.frustumCulled = false;
     scene.add(lines);
@@ -167,18 +169,35 @@
       return body;
     });
 
+    // Where each element's thread goes through rings, in order from the element's first end.
+    function bendsOf(frame) {
+      const bends = new Map();
+      for (let j = frame * joints; j < (frame + 1) * joints; j++) {
+        const e = waypoints[4 * j];
+        bends.set(e, (bends.get(e) || []).concat(4 * j + 1));
+      }
+      return bends;
+    }
+
     return function show(frame) {
       const base = frame * view.nodes * 3, xyz = line.attributes.position, rgb = line.attributes.color;
+      const bends = bendsOf(frame);
       let used = 0;
       for (let e = 0; e < count; e++) {
         const level = levels[frame * count + e];
         if (level === 0) continue;  // not there yet
         const tint = palette[families[e]][level - 1];
-        for (let end = 0; end < 2; end++, used++) {
-          at(positions, base + 3 * segments[2 * e + end], place);
+        const point = (array, k) => {
+          at(array, k, place);
           xyz.setXYZ(used, place.x, place.y, place.z);
-          rgb.setXYZ(used, tint.r, tint.g, tint.b);
+          rgb.setXYZ(used++, tint.r, tint.g, tint.b);
+        };
+        point(positions, base + 3 * segments[2 * e]);
+        for (const k of bends.get(e) || []) {
+          point(waypoints, k);  // one piece ends, the next begins
+          point(waypoints, k);
         }
+        point(positions, base + 3 * segments[2 * e + 1]);
       }
       line.setDrawRange(0, used);
       xyz.needsUpdate = rgb.needsUpdate = true;
