@@ -1,14 +1,36 @@
 #include "plan/overlap.hpp"
 
+#include <algorithm>
 #include <cstdio>
 
-#include "base/error.hpp"
 #include "plan/contact_health.hpp"
+#include "plan/health.hpp"
 
 namespace cinch {
 namespace {
 
+constexpr double great_share = 0.1;  ///< of the energy: from here on they decide how the motion begins
+constexpr int first_looks = 3;       ///< whose faults come from there
+
 constexpr std::size_t at(Index i) { return static_cast<std::size_t>(i); }
+
+// "element 3 of thread.main (nodes 3 and 4) lies 0.002 m deep in ring 'r1'".
+std::string describe(const Preparation& preparation, const Overlap& overlap) {
+  char depth[48];
+  std::snprintf(depth, sizeof depth, " lies %.3g m deep in ", overlap.depth);
+  return item_label(preparation, overlap.pair.element) + depth +
+         partner_label(preparation, overlap.ring, at(overlap.pair.with));
+}
+
+// Whether it is too great to begin with: it holds much of the energy, or needs a shorter step at once.
+bool decides(const Overlap& overlap, const Preparation& preparation, const State& state) {
+  const double begin = static_cast<double>(overlap.step) * preparation.dt;
+  const auto with = at(overlap.pair.with);
+  const auto at_once = [&](const auto& tally) { return tally.stiffest > 1 && tally.stiffest_time <= begin; };
+  if (overlap.share >= great_share) return true;
+  if (overlap.ring) return at_once(state.rings[with]);
+  return std::any_of(state.balls[with].begin(), state.balls[with].end(), at_once);
+}
 
 }  // namespace
 
@@ -30,22 +52,35 @@ std::optional<Overlap> find_overlap(const Model& model, const State& state, cons
   return std::nullopt;
 }
 
-std::string describe(const Preparation& preparation, const Overlap& overlap) {
-  char depth[48];
-  std::snprintf(depth, sizeof depth, " lies %.3g m deep in ", overlap.depth);
-  return item_label(preparation, overlap.pair.element) + depth +
-         partner_label(preparation, overlap.ring, at(overlap.pair.with));
+void OverlapWatch::begin(const Model& model, const State& state, const ContactList& contacts, Index first,
+                         double energy, const Energies& now) {
+  overlap_ = find_overlap(model, state, contacts, first);
+  sound_looks_ = 0;
+  if (overlap_ && energy > least_energy) overlap_->share = energy / (now.kinetic + now.elastic + now.contact);
 }
 
-void report_overlap(const Preparation& preparation, const Overlap& overlap, const std::string& what) {
+bool OverlapWatch::to_blame(const Preparation& preparation, const State& state) const {
+  return overlap_ && sound_looks_ < first_looks && decides(*overlap_, preparation, state);
+}
+
+std::string OverlapWatch::warning(const Preparation& preparation) const {
+  if (!overlap_ || overlap_->share < great_share) return "";
+  char text[120];
+  std::snprintf(text, sizeof text,
+                " where contact begins (t = %.6g s): %.3g %% of the energy comes from overlaps",
+                static_cast<double>(overlap_->step) * preparation.dt, 100 * overlap_->share);
+  return describe(preparation, *overlap_) + text;
+}
+
+void OverlapWatch::report(const Preparation& preparation, const std::string& what) const {
   const std::string prefix = "error: ";
   const std::size_t begin = what.starts_with(prefix) ? prefix.size() : 0;
   char time[64];
   std::snprintf(time, sizeof time, "error: at t = %.9g s ",
-                static_cast<double>(overlap.step) * preparation.dt);
+                static_cast<double>(overlap_->step) * preparation.dt);
   throw NumericalError(
-      time + describe(preparation, overlap) + "; likely cause: an overlap at the start" +
-      (overlap.step > 0 ? " of closing" : "") +
+      time + describe(preparation, *overlap_) + "; likely cause: an overlap at the start" +
+      (overlap_->step > 0 ? " of closing" : "") +
       ", before anything has moved; place them apart, or make them smaller; what it led to: " +
       what.substr(begin, what.find("; likely cause") - begin));
 }

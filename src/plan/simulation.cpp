@@ -163,7 +163,7 @@ void Simulation::start() {
   remember();
   look();
   ledger_.open(look_.energy(), m, state_, work);
-  note_overlap(0, look_.energy().contact);
+  overlaps_.begin(m, state_, stepper_->contacts(), 0, look_.energy().contact, look_.energy());
   ring_start_ = look_.ring_centers();
   threadings_.begin(look_, stepper_->contacts());
   if (needs_node_start(scene_)) node_start_ = look_.positions();
@@ -199,7 +199,8 @@ void Simulation::close() {
   ledger_.book_closing(before, after, laid, separated, state_, before_model, model());
   remember();
   threadings_.begin(look(), stepper_->contacts());
-  note_overlap(preparation_.assembly.elements_before, laid.contact - before.contact);
+  overlaps_.begin(model(), state_, stepper_->contacts(), preparation_.assembly.elements_before,
+                  laid.contact - before.contact, look_.energy());
   ledger_.book_supports(
       {held.linear - free.linear, Vec3::Zero()});  // the angular part is in book_closing's difference
   for (const Mechanism& mechanism : scene_.mechanisms)
@@ -235,7 +236,7 @@ void Simulation::advance_with_threads_that_pay(std::int64_t stop) {
 }
 
 void Simulation::check_health() {
-  blame_overlap([this] { find_faults(); });
+  overlaps_.blame(preparation_, state_, [this] { find_faults(); });
   if (state_.step - sound_.step >= health_interval(model().nodes)) {
     note_pace();
     remember();
@@ -248,48 +249,6 @@ void Simulation::find_faults() {
   if (stepper_->jump()) report_jump(preparation_, state_, *stepper_->jump());
   if (!stepper_->healthy()) report_runaway(preparation_, state_, scene_.time.speed_limit);
   if (!speeds_allowed(state_, scene_.time.speed_limit)) find_fault();
-}
-
-// `energy`: of the contacts of elements from `first` on, J.
-void Simulation::note_overlap(Index first, double energy) {
-  overlap_ = find_overlap(model(), state_, stepper_->contacts(), first);
-  sound_looks_ = 0;
-  if (!overlap_ || energy <= least_energy) return;
-  const Energies& now = look_.energy();
-  overlap_->share = energy / (now.kinetic + now.elastic + now.contact);
-}
-
-// Whether it is too great to begin with: it holds much of the energy, or needs a shorter step at once.
-bool Simulation::overlap_decides() const {
-  if (!overlap_) return false;
-  const double begin = static_cast<double>(overlap_->step) * preparation_.dt;
-  const auto with = at(overlap_->pair.with);
-  const auto at_once = [&](const auto& tally) { return tally.stiffest > 1 && tally.stiffest_time <= begin; };
-  if (overlap_->ring) return overlap_->share >= great_overlap || at_once(state_.rings[with]);
-  const auto& tallies = state_.balls[with];
-  return overlap_->share >= great_overlap || std::any_of(tallies.begin(), tallies.end(), at_once);
-}
-
-std::string Simulation::overlap_warning() const {
-  if (!overlap_ || overlap_->share < great_overlap) return "";
-  char text[120];
-  std::snprintf(text, sizeof text,
-                " where contact begins (t = %.6g s): %.3g %% of the energy comes from overlaps",
-                static_cast<double>(overlap_->step) * preparation_.dt, 100 * overlap_->share);
-  return describe(preparation_, *overlap_) + text;
-}
-
-// Faults of the first looks come from there.
-template <class Check>
-void Simulation::blame_overlap(Check check) const {
-  constexpr int first_looks = 3;
-  try {
-    check();
-  } catch (const NumericalError& fault) {
-    if (sound_looks_ < first_looks && overlap_decides())
-      report_overlap(preparation_, *overlap_, fault.what());
-    throw;
-  }
 }
 
 void Simulation::note_pace() {
@@ -354,9 +313,10 @@ Frame Simulation::frame(const Look& now) {
 void Simulation::check_energy(const Look& now) {
   const double limit = scene_.time.residual_limit, residual = ledger_.energies(now.energy()).residual;
   if (scene_.output.ledger && !scene_.time.allow_unstable)
-    blame_overlap(
-        [&] { cinch::check_energy(preparation_, model(), state_, residual, ledger_.scale(), limit); });
-  sound_looks_ += now.step() > (overlap_ ? overlap_->step : 0);
+    overlaps_.blame(preparation_, state_, [&] {
+      cinch::check_energy(preparation_, model(), state_, residual, ledger_.scale(), limit);
+    });
+  overlaps_.note_sound(now.step());
 }
 
 std::vector<double> Simulation::probe_row(const Look& now) {
@@ -371,7 +331,7 @@ void Simulation::note_losses(const Look& now) {
                        preparation_.assembly.rings[at(loss.ring)].name + ": " +
                            preparation_.assembly.parts[at(loss.part)].reference()});
   if (!losses.empty() && scene_.contact.leaving == Leaving::stop)
-    blame_overlap([&] { report_loss(preparation_, now, losses.front()); });
+    overlaps_.blame(preparation_, state_, [&] { report_loss(preparation_, now, losses.front()); });
 }
 
 void Simulation::note_events(const Look& now) {

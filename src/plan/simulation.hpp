@@ -55,7 +55,7 @@ class Simulation {
   Summary summary();
   MemoryUse memory() const;
   /// Of contacts that overlap so much where they begin that they decide how the motion begins; else empty.
-  std::string overlap_warning() const;
+  std::string overlap_warning() const { return overlaps_.warning(preparation_); }
 
   std::int64_t step() const { return state_.step; }
   double time() const { return static_cast<double>(state_.step) * preparation_.dt; }
@@ -86,10 +86,6 @@ class Simulation {
   void find_faults();
   void note_pace();
   void note_losses(const Look& now);
-  void note_overlap(Index first, double energy);
-  bool overlap_decides() const;
-  template <class Check>
-  void blame_overlap(Check check) const;
   void remember();
   [[noreturn]] void find_fault();
   std::vector<Event> all_events() const;
@@ -119,9 +115,8 @@ class Simulation {
   bool has_mouth_ = false, mouth_closed_ = false;
   std::vector<bool> enclosed_;
   ThreadingWatch threadings_;
-  std::vector<Event> events_;       ///< those noted here; contacts are kept in the tallies
-  std::optional<Overlap> overlap_;  ///< of the contacts that began last without having moved
-  int sound_looks_ = 0;             ///< at energies since then
+  std::vector<Event> events_;  ///< those noted here; contacts are kept in the tallies
+  OverlapWatch overlaps_;      ///< of the contacts that began last without having moved
 };
 
 /// Threads that pay for a scene of this size wherever they run: one for each 8000 elements or so, as below
