@@ -98,11 +98,18 @@ CINCH_INLINE Group spring_turning_slack(Group k, Group stretch, Group change, Gr
   return _mm512_mask_blend_pd(pulls, loose, _mm512_max_pd(spring, least));
 }
 
+/// As the scalar one of axial_law.hpp, for elements that turn taut.
+CINCH_INLINE Group drag_turning_taut(Group stretch, Group change, Group steady, const double* palette) {
+  const Group share = steady * (_mm512_set1_pd(0.5) + stretch / change);
+  const Group whole_rate = change / load(palette + 3 * kernel::lanes);
+  return _mm512_min_pd(share, _mm512_max_pd(steady, whole_rate));
+}
+
 /// S of elements of which those in `near`, s < `furthest` |d|, may turn taut or slack; for the others k s.
+/// Those in `taut` have turned taut.
 CINCH_INLINE Group spring_at_switch(Group full, Group stretch, Group change, Group drag,
-                                    const double* palette, __mmask8 near) {
+                                    const double* palette, __mmask8 near, __mmask8 taut) {
   const Group k = load(palette), give = load(palette + 3 * kernel::lanes), zero = _mm512_setzero_pd();
-  const __mmask8 taut = _mm512_mask_cmp_pd_mask(near, stretch, change, _CMP_LT_OQ);
   const Group shrinks = give * _mm512_max_pd(full + drag, zero) - change;
   const __mmask8 slack = _mm512_mask_cmp_pd_mask(_kandn_mask8(taut, near), stretch, shrinks, _CMP_LT_OQ);
   Group spring = full;
@@ -119,12 +126,15 @@ CINCH_INLINE Forces force(const Taut& t, const double* palette, Group dt, double
   const __mmask8 stretched = _mm512_cmp_pd_mask(t.stretch, zero, _CMP_GT_OQ);
   const Group rate = t.rv * t.inverse, change = rate * dt;
   Group spring = load(palette) * t.stretch;
-  const Group drag = damped ? _mm512_maskz_mul_pd(stretched, load(palette + kernel::lanes), rate) : zero;
+  Group drag = damped ? _mm512_maskz_mul_pd(stretched, load(palette + kernel::lanes), rate) : zero;
   Group tension = _mm512_max_pd(damped ? spring + drag : spring, zero);
   const Group far = _mm512_set1_pd(furthest) * _mm512_abs_pd(change);
   const __mmask8 near = _mm512_mask_cmp_pd_mask(stretched, t.stretch, far, _CMP_LT_OQ);
   if (near) [[unlikely]] {
-    spring = spring_at_switch(spring, t.stretch, change, drag, palette, near);
+    const __mmask8 taut = _mm512_mask_cmp_pd_mask(near, t.stretch, change, _CMP_LT_OQ);
+    if (damped && taut)
+      drag = _mm512_mask_mov_pd(drag, taut, drag_turning_taut(t.stretch, change, drag, palette));
+    spring = spring_at_switch(spring, t.stretch, change, drag, palette, near, taut);
     tension = _mm512_max_pd(spring + drag, zero);
   }
   if (power) {

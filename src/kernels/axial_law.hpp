@@ -15,10 +15,17 @@
 // at a constant rate: damped threads turn slack more slowly than taut and lose, undamped ones blow up far
 // below the linear bound. The pull itself changes the rate,
 //   d' = d - g T,   g = dt^2 (1/m_a + 1/m_b),
-// where nothing else does. For an element alone the rule is exact then; in a net a quarter of what d' = d gives
-// is left, or less, up to half of the stable step (bench/README.md). Neighbours that hold against the pull of
-// a taut element make it a bad guess: -d' counts no further than to 5/4 |d|, so that only elements that have
-// moved towards it turn slack.
+// where nothing else does. For an element alone the rule is exact then; in a net a quarter of what d' = d
+// gives is left, or less, up to half of the stable step (bench/README.md). Neighbours that hold against the
+// pull of a taut element make it a bad guess: -d' counts no further than to 5/4 |d|, so that only elements
+// that have moved towards it turn slack.
+//
+// The damper, too, works only while the element is taut. A force acts from half a step before its instant to
+// half a step after; an element that has turned taut s/d steps ago has been so for 1/2 + s/d of a step, with
+// what fell to the force before, which was none. So its damper pulls with (1/2 + s/d) c dl/dt, but not so
+// hard that it would turn the rate round. With c dl/dt alone a bounce loses the more energy the later in a
+// step it begins, of first order in dt: in a net that flies, chance. Where it turns slack there is no such
+// rule, as T is zero before s is.
 #pragma once
 #include "kernels/vec.hpp"
 
@@ -56,7 +63,14 @@ inline double spring_turning_slack(double k, double stretch, double change, doub
   return spring + drag > 0 ? (spring > least ? spring : least) : loose;
 }
 
-/// S for the stretch s > 0, the change of length d in the step before, the damper's pull c dl/dt and g. Where
+/// The damper's pull, which is c dl/dt = `steady` while taut.
+inline double drag_at_switch(double stretch, double change, double steady, double give) {
+  const double share = steady * (0.5 + stretch / change), whole_rate = change / give;
+  const double most = steady > whole_rate ? steady : whole_rate;
+  return stretch < change ? (share < most ? share : most) : steady;
+}
+
+/// S for the stretch s > 0, the change of length d in the step before, the damper's pull and g. Where
 /// the element turns neither taut nor slack it is k s to the last bit.
 inline double spring_at_switch(double k, double stretch, double change, double drag, double give) {
   const double full = k * stretch, pull = full + drag > 0 ? full + drag : 0.0;
@@ -76,8 +90,9 @@ inline Axial axial_law(double rr, double rv, double k, double c, double l0, doub
   const double inverse = 1.0 / taut;
   const double stretch = taut - l0;
   const double rate = rv * inverse, change = rate * dt;
-  const double full = k * stretch, drag = stretch > 0 ? c * rate : 0.0;
+  const double full = k * stretch, steady = stretch > 0 ? c * rate : 0.0;
   const double spare = stretch > 0 ? stretch - furthest * std::fabs(change) : 0.0;
+  const double drag = switching && spare < 0 ? drag_at_switch(stretch, change, steady, give) : steady;
   const double spring = switching && spare < 0 ? spring_at_switch(k, stretch, change, drag, give) : full;
   const double pull = spring + drag;
   const double tension = pull > 0 ? pull : 0.0;

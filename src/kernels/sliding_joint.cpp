@@ -152,8 +152,9 @@ struct Pull {
   Pull(const Slide& s, double length, double length_rate, double give) : rate(length_rate) {
     const double stretch = s.stretch(length);
     if (!(stretch > 0)) return;
-    const double full = s.thread.stiffness * stretch, drag = s.thread.damping * rate;
-    const double spring = spring_at_switch(s.thread.stiffness, stretch, rate * s.g.contact.step, drag, give);
+    const double full = s.thread.stiffness * stretch, change = rate * s.g.contact.step;
+    const double drag = drag_at_switch(stretch, change, s.thread.damping * rate, give);
+    const double spring = spring_at_switch(s.thread.stiffness, stretch, change, drag, give);
     tension = spring + drag > 0 ? spring + drag : 0.0;
     damper = tension - spring;
     energy = 0.5 * full * stretch;

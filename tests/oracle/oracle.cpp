@@ -252,6 +252,17 @@ double Oracle::spring_force(Index element, double stretch, double before, double
   return high;
 }
 
+/// The damper works from half a step before to half a step after, as far as the element is taut then; what it
+/// would have done before that counts here. It takes no more than the whole rate, unless it always would.
+double Oracle::damper_force(Index element, double stretch, double before, double rate) const {
+  const AssemblyElement& e = at(assembly_.elements, element);
+  const double steady = e.damping * rate;
+  if (stretch >= before) return steady;
+  const double taut_for = stretch / before + 0.5;  // steps
+  const double to_rest = before / (dt_ * dt_ * (mobility(e.a) + mobility(e.b)));
+  return std::min(taut_for * steady, std::max(steady, to_rest));
+}
+
 /// Spring and damper in parallel, tension only.
 void Oracle::add_element(Index i, const Motion& m, Evaluation& sum) const {
   const AssemblyElement& e = at(assembly_.elements, i);
@@ -260,7 +271,8 @@ void Oracle::add_element(Index i, const Motion& m, Evaluation& sum) const {
   const double rate = along.dot(at(m.v, e.b) - at(m.v, e.a)) / std::max(length, e.rest_length);
   at(sum.rate, i) = rate;
   if (!(stretch > 0)) return;
-  const double drag = e.damping * rate, spring = spring_force(i, stretch, rate * dt_, drag);
+  const double drag = damper_force(i, stretch, rate * dt_, rate);
+  const double spring = spring_force(i, stretch, rate * dt_, drag);
   const double tension = std::max(0.0, spring + drag);
   at(sum.force, e.a) += tension / length * along;
   at(sum.force, e.b) -= tension / length * along;

@@ -95,6 +95,7 @@ class Oracle {
 
   void add_gravity(const Motion& m, Evaluation& sum) const;
   double spring_force(Index element, double stretch, double before, double drag) const;
+  double damper_force(Index element, double stretch, double before, double rate) const;
   void add_element(Index element, const Motion& m, Evaluation& sum) const;
   void add_ring(Index ring, const Motion& m, Evaluation& sum) const;
   void add_ball(Index ball, const Motion& m, Evaluation& sum) const;
