@@ -9,6 +9,7 @@
 #include <cstring>
 #include <functional>
 #include <future>
+#include <thread>
 
 #include "base/error.hpp"
 #include "study_result.hpp"
@@ -52,7 +53,7 @@ Track mean(const std::vector<Track>& tracks) {
   return sum;
 }
 
-// The runs of one setting: as many as the problem wants.
+// The runs of one setting.
 struct Sweep {
   std::vector<Track> tracks;
   double step = 0, seconds = 0, residual = 0;  // medians of the last two
@@ -68,22 +69,34 @@ Measured measure_run(const Problem& problem, Scene scene, int run) {
   return measure_once(problem, scene);
 }
 
-// Where their time counts, runs follow each other.
-Sweep measure(const Problem& problem, const Setting& setting, bool timed) {
+// The runs [first, last) of a setting, as many at once as there are processors.
+void measure_together(const Problem& problem, const Scene& scene, int first, int last,
+                      std::vector<Measured>& found) {
+  const int at_once = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
+  for (; first < last; first += at_once) {
+    std::vector<std::future<Measured>> runs;
+    for (int r = first; r < std::min(last, first + at_once); ++r)
+      runs.push_back(std::async(std::launch::async, measure_run, std::cref(problem), scene, r));
+    for (auto& run : runs) found.push_back(run.get());
+  }
+}
+
+// The first `timed` runs follow each other, and their time counts.
+Sweep measure(const Problem& problem, const Setting& setting, int timed) {
   const Scene scene = problem.scene(setting);
-  std::vector<std::future<Measured>> runs;
-  for (int r = 0; r < problem.runs; ++r)
-    runs.push_back(std::async(timed ? std::launch::deferred : std::launch::async, measure_run,
-                              std::cref(problem), scene, r));
+  std::vector<Measured> runs;
+  for (int r = 0; r < std::min(timed, setting.runs); ++r) runs.push_back(measure_run(problem, scene, r));
+  const std::size_t alone = runs.size();
+  measure_together(problem, scene, static_cast<int>(alone), setting.runs, runs);
   Sweep sweep;
   std::vector<double> times, residuals;
-  for (auto& run : runs) {
-    const Measured one = run.get();
-    sweep.tracks.push_back(one.track);
-    sweep.step = one.step;
-    times.push_back(one.seconds), residuals.push_back(one.residual);
+  for (const Measured& run : runs) {
+    sweep.tracks.push_back(run.track);
+    sweep.step = run.step;
+    residuals.push_back(run.residual);
+    if (times.size() < alone) times.push_back(run.seconds);
   }
-  sweep.seconds = median(times), sweep.residual = median(residuals);
+  sweep.seconds = times.empty() ? 0 : median(times), sweep.residual = median(residuals);
   return sweep;
 }
 
@@ -109,7 +122,7 @@ Reference reference_of(const Problem& problem) {
   if (problem.exact) return {};
   std::vector<Track> finest;
   for (const Setting& setting : problem.reference)
-    finest.push_back(mean(measure(problem, setting, false).tracks));
+    finest.push_back(mean(measure(problem, setting, 0).tracks));
   Reference reference{mean(finest)};
   for (const Track& track : finest)
     reference.error = std::max(reference.error, problem.errors(track, reference.track).front().second);
@@ -140,11 +153,12 @@ RunResult run(const Problem& problem, const Setting& setting, const Track& refer
   RunResult result;
   result.setting = setting;
   try {
-    const Sweep found = measure(problem, setting, true);
+    constexpr int timed = 8;
+    const Sweep found = measure(problem, setting, timed);
     result.step = found.step;
     result.errors = errors_of(problem, found.tracks, reference);
     result.residual = found.residual;
-    result.seconds = problem.runs > 1 ? found.seconds : least_seconds(problem, setting, found.seconds);
+    result.seconds = setting.runs > 1 ? found.seconds : least_seconds(problem, setting, found.seconds);
     std::printf("  %-58s %4d elements  error %8.4f %%  %9.3g s/s  residual %.1e%s\n",
                 setting.series().c_str(), setting.elements, 100 * result.error(), result.seconds,
                 result.residual, setting.papers ? "  the paper's choice" : "");

@@ -15,11 +15,9 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 Json run_json(const RunResult& run) {
-  Json json = {{"series", run.setting.series()},
-               {"method", run.setting.method},
-               {"elements", run.setting.elements},
-               {"step_s", run.step},
-               {"papers_choice", run.setting.papers}};
+  Json json = {{"series", run.setting.series()},      {"method", run.setting.method},
+               {"elements", run.setting.elements},    {"step_s", run.step},
+               {"papers_choice", run.setting.papers}, {"runs", run.setting.runs}};
   if (!run.good()) {
     json["failure"] = run.failure;
     return json;
@@ -35,7 +33,6 @@ Json problem_json(const ProblemResult& result) {
                {"title", result.problem->title},
                {"measure", result.problem->measure},
                {"reference_error", result.reference_error},
-               {"runs_of_each", result.problem->runs},
                {"runs", Json::array()},
                {"best", Json::array()},
                {"orders", Json::object()}};
@@ -104,7 +101,7 @@ std::vector<const RunResult*> falling(const ProblemResult& result, const std::st
 
 double observed_order(const ProblemResult& result, const std::string& series) {
   double n = 0, x = 0, y = 0, xx = 0, xy = 0;
-  if (result.problem->runs > 1) return std::numeric_limits<double>::quiet_NaN();
+  if (result.problem->chaotic()) return std::numeric_limits<double>::quiet_NaN();
   for (const RunResult* run : falling(result, series)) {
     const double length = -std::log(run->setting.elements), error = std::log(run->error());
     n += 1, x += length, y += error, xx += length * length, xy += length * error;

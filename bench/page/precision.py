@@ -40,14 +40,14 @@ def figures(study: Study | None) -> list[Figure]:
 def precision(problem: Problem, made: str) -> Figure:
     """Each run as a point: run time across, error upwards; one curve for each method and choice of step."""
     runs = [run for run in problem["runs"] if "failure" not in run]
-    curves: dict[str, list[Any]] = {}
-    for run in runs:
-        curves.setdefault(run["series"], []).append(_point(run))
+    curves: dict[str, list[Any]] = {run["series"]: [] for run in runs}
+    for run in sorted(runs, key=lambda run: run["elements"]):
+        curves[run["series"]].append(_point(run))
     series = [Series(name, COLOURS[i % len(COLOURS)], points) for i, (name, points) in enumerate(curves.items())]
     papers = [_point(run) for run in runs if run["papers_choice"]]
     return Figure(
         f"Error against run time: {problem['title']}", f"{_caption(problem)} {made}", COMMAND,
-        ["method and step", "elements", "step, s", "error, %", "a run from the mean, %", "run time, s/s",
+        ["method and step", "elements", "step, s", "runs", "error, %", "a run from the mean, %", "run time, s/s",
          "energy residual", "order as far as errors fall", "remark"],
         [_row(problem, run) for run in problem["runs"]],
         lines([Series("the paper's own choices", GREY, papers), *series],  # the first is drawn on top
@@ -60,9 +60,9 @@ def _point(run: dict[str, Any]) -> tuple[float | None, float | None]:
 
 def _row(problem: Problem, run: dict[str, Any]) -> Row:
     if "failure" in run:
-        return [run["series"], run["elements"], None, None, None, None, None, None, run["failure"]]
+        return [run["series"], run["elements"], *[None] * 7, run["failure"]]
     apart = run["errors"].get("one_run_from_the_mean")  # where a problem is chaotic
-    return [run["series"], run["elements"], run["step_s"], 100 * run["errors"]["error"],
+    return [run["series"], run["elements"], run["step_s"], run["runs"], 100 * run["errors"]["error"],
             None if apart is None else 100 * apart,
             run["seconds_per_simulated_second"], run["energy_residual"], problem["orders"].get(run["series"]),
             "the paper's choice" if run["papers_choice"] else ""]
@@ -71,7 +71,7 @@ def _row(problem: Problem, run: dict[str, Any]) -> Row:
 def _caption(problem: Problem) -> str:
     """What the error is, and the fastest setting for each wanted one."""
     best = "; ".join(_best(problem, wanted) for wanted in problem["best"])
-    runs = problem.get("runs_of_each", 1)  # more than one where a problem is chaotic
+    runs = max(run["runs"] for run in problem["runs"])  # more than one where a problem is chaotic
     means = f", of means over {runs} runs that begin a little apart" if runs > 1 else ""
     return (f"Lower left is better. Error: {problem['measure']}{means}; the reference's own is "
             f"{number(100 * problem['reference_error'])} %. Fastest, with that and what chance may add counted in: "

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <random>
 
 #include "common.hpp"
 #include "scene/mouth.hpp"
@@ -17,6 +18,15 @@ double time_of(Simulation& sim, const std::string& kind) {
   return std::numeric_limits<double>::quiet_NaN();
 }
 
+// Each mechanism up to half a per cent faster or slower; alike for a run of any setting. Runs that begin
+// nearly alike have in common what their step makes of the flight: their mean says little.
+void launch_otherwise(Scene& scene, int run) {
+  std::mt19937 random(static_cast<unsigned>(run));
+  constexpr double spread = 0.01 / 4294967296.0;
+  for (Mechanism& mechanism : scene.mechanisms)
+    mechanism.launch_velocity *= 0.995 + spread * static_cast<double>(random());
+}
+
 }  // namespace
 
 Problem capture(Extent extent) {
@@ -28,10 +38,7 @@ Problem capture(Extent extent) {
       "side";
   p.end = 2;
   p.samples = 400;
-  p.runs = 8;
-  p.perturb = [](Scene& scene, int run) {
-    for (Mechanism& mechanism : scene.mechanisms) mechanism.launch_velocity *= 1 + 1e-5 * run;
-  };
+  p.perturb = launch_otherwise;
   p.scene = [](const Setting& setting) { return scene_of("capture", setting); };
   p.sample = [](Simulation& sim) {
     const Look& now = sim.look();
@@ -51,22 +58,30 @@ Problem capture(Extent extent) {
                   {"closing_time", std::abs(end[5] / right[5] - 1)}};
   };
   if (extent == Extent::trial) {  // the first of its flight
-    p.end = 0.2, p.samples = 20, p.runs = 3;
-    p.reference.push_back({"sliding", 8, 0, 0.8, false, 0});
-    add_series(p.settings, "sliding", {6}, 0.8, 0);
+    p.end = 0.2, p.samples = 20;
+    p.reference.push_back({"sliding", 8, 0, 0.8, false, 0, 3});
+    p.settings.push_back({"sliding", 6, 0, 0.8, false, 0, 3});
     return p;
   }
-  for (const int n : {36, 44, 52}) p.reference.push_back({"sliding", n, 0, 0.4, false, 0});
-  const std::vector<int> few = {6, 8, 12, 18, 26};
-  for (const double fraction : {0.8, 0.4}) add_series(p.settings, "sliding", few, fraction, 0);
-  // steps beyond 0.9 are too long for contacts with the ball
-  add_series(p.settings, "sliding", {10, 12}, 0.9, 0);
-  add_series(p.settings, "sliding", {10}, 0.9, 6);  // as long as they may be
-  add_papers_step(p.settings, papers_rules, {240}, {240});
+  // One run is off by 2 %, a mean of many by 0.2 %. Before the closing time the threads' masses lie on the
+  // net's knots, in equal shares where their elements are as long as a mesh or a whole part of it.
+  constexpr int many = 128, some = 32, few = 8;
+  for (const int n : {12, 24}) p.reference.push_back({"sliding", n, 0, 0.2, false, 0, many});
+  for (const double fraction : {0.8, 0.5, 0.4}) add_series(p.settings, "sliding", {12}, fraction, 0);
+  for (const int held : {5, 8}) add_series(p.settings, "sliding", {12}, 0.4, held);
+  set_runs(p.settings, many);
+  std::vector<Setting> others;
+  for (const double fraction : {0.8, 0.4}) add_series(others, "sliding", {8, 10, 18, 24}, fraction, 0);
+  add_series(others, "sliding", {10}, 0.9, 6);  // as fast as it goes
+  set_runs(others, some);
+  std::vector<Setting> slow;
+  add_papers_step(slow, papers_rules, {240}, {240});
   if (extent == Extent::full) {
-    add_papers_step(p.settings, "contact", {240}, {});
-    add_series(p.settings, "contact", {240, 480}, 0.8);
+    add_papers_step(slow, "contact", {240}, {});
+    add_series(slow, "contact", {240, 480}, 0.8);
   }
+  set_runs(slow, few);
+  for (const auto& more : {others, slow}) p.settings.insert(p.settings.end(), more.begin(), more.end());
   return p;
 }
 

@@ -38,6 +38,10 @@ void add_papers_step(std::vector<Setting>& to, const std::string& method, const 
     to.push_back({method, n, 1e-6, 0, std::count(papers.begin(), papers.end(), n) > 0});
 }
 
+void set_runs(std::vector<Setting>& settings, int runs) {
+  for (Setting& setting : settings) setting.runs = runs;
+}
+
 double distance(const std::vector<double>& a, const std::vector<double>& b, std::size_t first,
                 std::size_t last) {
   double sum = 0;

@@ -17,6 +17,9 @@ void add_series(std::vector<Setting>& to, const std::string& method, const std::
 void add_papers_step(std::vector<Setting>& to, const std::string& method, const std::vector<int>& elements,
                      const std::vector<int>& papers);
 
+/// Of each setting.
+void set_runs(std::vector<Setting>& settings, int runs);
+
 /// Distance between places whose coordinates stand at [first, last) of two samples.
 double distance(const std::vector<double>& a, const std::vector<double>& b, std::size_t first,
                 std::size_t last);

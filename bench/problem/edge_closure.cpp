@@ -15,7 +15,6 @@ Problem edge_closure(Extent extent) {
       "greatest of a mass, of the net's side";
   p.end = 0.4;
   p.samples = 40;
-  p.runs = 8;
   p.perturb = [](Scene& scene, int run) { scene.gravity = (1 + 1e-6 * run) * scene.gravity.value(); };
   p.scene = [](const Setting& setting) { return scene_of("edge_closure", setting); };
   p.sample = [](Simulation& sim) {
@@ -40,12 +39,13 @@ Problem edge_closure(Extent extent) {
         {"error", std::max(edge, masses)}, {"edge_shape", edge}, {"one_knot", most}, {"mass_path", masses}};
   };
   if (extent == Extent::trial) {  // its begin
-    p.end = 0.02, p.samples = 2, p.runs = 2;
-    p.reference.push_back({"sliding", 8, 0, 0.8, false, 0});
-    add_series(p.settings, "sliding", {6}, 0.8, 0);
+    p.end = 0.02, p.samples = 2;
+    p.reference.push_back({"sliding", 8, 0, 0.8, false, 0, 2});
+    p.settings.push_back({"sliding", 6, 0, 0.8, false, 0, 2});
     return p;
   }
-  for (const int n : {72, 86, 100, 120, 144}) p.reference.push_back({"sliding", n, 0, 0.25, false});
+  constexpr int runs = 8;
+  for (const int n : {72, 86, 100, 120, 144}) p.reference.push_back({"sliding", n, 0, 0.25, false, 1, runs});
   const std::vector<int> few = {6, 8, 12, 18, 26, 36};
   for (const double fraction : {0.8, 0.4}) add_series(p.settings, "sliding", few, fraction, 0);
   add_papers_step(p.settings, papers_rules, {240}, {240});
@@ -53,6 +53,7 @@ Problem edge_closure(Extent extent) {
     add_papers_step(p.settings, "contact", {120, 240}, {});
     add_series(p.settings, "contact", {120, 240, 480}, 0.8);
   }
+  set_runs(p.settings, runs);
   return p;
 }
 

@@ -18,6 +18,7 @@ struct Setting {
   double fraction = 0;         ///< of the stable step
   bool papers = false;         ///< the paper's own choice
   int joint_steps = 1;         ///< for which forces of sliding joints hold; 0: automatic
+  int runs = 1;                ///< whose mean counts, where a problem is chaotic
   std::string series() const;  ///< what it shares with others of one curve
 };
 
@@ -43,10 +44,9 @@ struct Problem {
   std::vector<Setting> reference;                    ///< whose mean is the reference
   std::vector<Setting> settings;
 
-  /// Where a problem is chaotic, means over so many runs are compared, each begun a little apart from the
-  /// others.
-  int runs = 1;
+  /// Where a problem is chaotic: begins a run a little apart from the others.
   std::function<void(Scene&, int run)> perturb;
+  bool chaotic() const { return perturb != nullptr; }
 };
 
 /// How much of a problem is computed.
