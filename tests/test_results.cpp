@@ -366,6 +366,19 @@ TEST(Results, OldRunIsReplacedAndOtherFilesStay) {
   EXPECT_FALSE(result.summary());
 }
 
+TEST(Results, AnEarlierResultWithoutItsJointsIsRefused) {
+  const Scratch scratch;
+  ResultModel model = small_model(4);
+  model.joints.clear();
+  record(scratch.path / "old", model, 1);
+  const Result old(scratch.path / "old");
+  const std::string error = test::file_error_of([&] {
+    Recorder(scratch.path / "new", small_model(4), Recorder::Options{}, {old, 1, 0});
+  });
+  EXPECT_NE(error.find("holds 0 sliding joints, the case has 2"), std::string::npos) << error;
+  EXPECT_FALSE(fs::exists(scratch.path / "new"));
+}
+
 TEST(Results, FrameOfTheWrongSizeIsADefect) {
   const Scratch scratch;
   const ResultModel model = small_model(4);

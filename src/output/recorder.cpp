@@ -203,7 +203,12 @@ void require_sizes(const Frame& frame, NetSize net, const ResultModel& model) {
   if (!fits) throw Error(ExitCode::internal, "recorder: a frame does not have the model's sizes");
 }
 
-void require_enough(const Recorder::Earlier& earlier) {
+void require_enough(const Recorder::Earlier& earlier, const ResultModel& model) {
+  const std::size_t joints = earlier.result.model().joints.size();
+  if (joints != model.joints.size())
+    throw FileError("error: " + earlier.result.path().string() + ": holds " + std::to_string(joints) +
+                    " sliding joints, the case has " + std::to_string(model.joints.size()) +
+                    ": an earlier version did not write them");
   const std::size_t frames = static_cast<std::size_t>(earlier.result.frames()),
                     rows = earlier.result.probe_times().size();
   if (frames >= static_cast<std::size_t>(earlier.frames) && rows >= earlier.probe_rows) return;
@@ -348,7 +353,7 @@ Recorder::Recorder(const std::filesystem::path& directory, ResultModel model, co
 
 Recorder::Recorder(const std::filesystem::path& directory, ResultModel model, const Options& options,
                    const Earlier& earlier) {
-  require_enough(earlier);
+  require_enough(earlier, model);
   impl_ = std::make_unique<Impl>(directory, std::move(model), options, true);
   impl_->copy(earlier);
   impl_->take_place();
