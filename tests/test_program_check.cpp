@@ -163,6 +163,26 @@ TEST_F(Doubtful, AClosingThreadFarTooShortIsToldOf) {
   EXPECT_TRUE(has(err(), "warning: closing thread 'c'")) << err();
 }
 
+TEST_F(Doubtful, AClosingThreadThatHangsUnevenlyOnItsNetIsToldOf) {
+  const std::string capture = std::string(CINCH_SOURCE_DIR) + "/cases/capture.toml";
+  const auto with = [&](const std::string& elements) {
+    return run({"check", capture, "--set", "case.method=sliding", "--set", "time.step_s=auto", "--set",
+                "thread.c_top.elements=" + elements});
+  };
+  for (const char* even : {"10", "12", "18", "24", "36"}) {
+    EXPECT_EQ(with(even), 0) << err();
+    EXPECT_FALSE(has(err(), "hangs unevenly")) << even << err();
+  }
+  for (const char* uneven : {"4", "6", "8"}) {
+    EXPECT_EQ(with(uneven), 0) << err();
+    EXPECT_TRUE(
+        has(err(), std::string("warning: closing thread 'c_top' of ") + uneven + " elements hangs unevenly"))
+        << err();
+  }
+  with("8");
+  EXPECT_TRUE(has(err(), "until it is laid: 0.5 to 1 of its nodes on a knot")) << err();
+}
+
 TEST_F(Doubtful, AnAutomaticJointThatNoThreadPassesIsToldOf) {
   std::string text = with("joint = \"contact\"\n", "");
   text.replace(text.find("0.0069"), 6, "0.0200");
