@@ -67,8 +67,12 @@ void print_stages(const Preparation& p) {
 
 void print_output(const Scene& scene, const Preparation& p) {
   const double frames = scene.time.end / scene.output.frame_interval + 1;
-  const double frame =
-      static_cast<double>(p.whole().nodes) * 9 * 8 + static_cast<double>(p.whole().elements) * (2 * 8 + 1);
+  const Model& whole = p.whole();
+  const auto joints = static_cast<double>(whole.joints.size());
+  const double points = static_cast<double>(whole.sliding_nodes.size()) + joints;  // of ways
+  const double frame = static_cast<double>(whole.nodes) * 9 * 8 +
+                       static_cast<double>(whole.elements) * (2 * 8 + 1) + joints * (3 * 8 + 4) +
+                       points * (3 * 8 + 8 + 1);
   std::printf("output           %.0f frames, %.1f MB\n", frames, frames * frame / 1e6);
 }
 

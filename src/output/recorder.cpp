@@ -61,6 +61,12 @@ h5::SeriesLayout rows_of(std::size_t rows, std::size_t width, std::size_t bytes,
   return layout;
 }
 
+/// One row of this shape for each frame.
+h5::SeriesLayout slabs(h5::Shape row, hsize_t bytes, const Recorder::Options& options, const char* unit) {
+  for (const hsize_t length : row) bytes *= length;
+  return {std::move(row), chunk_rows(1, bytes, options), options.compress, unit};
+}
+
 /// Single numbers, of which `expected` rows may come.
 h5::SeriesLayout numbers(std::int64_t expected, const char* unit = "", h5::Shape row = {}) {
   return {std::move(row), std::max(kScalarRows, per_chunk(expected)), false, unit};
@@ -119,12 +125,9 @@ struct NetSeries {
 /// Rings, frame by frame: [frames, rings, 3].
 struct RingSeries {
   RingSeries(h5::File& file, std::size_t rings, const Recorder::Options& options)
-      : center(file, kRingCenter, slabs(rings, options, "m")),
-        normal(file, kRingNormal, slabs(rings, options, "1")),
-        force(file, kRingForce, slabs(rings, options, "N")) {}
-  static h5::SeriesLayout slabs(std::size_t rings, const Recorder::Options& options, const char* unit) {
-    return {{rings, 3}, chunk_rows(1, rings * 24, options), options.compress, unit};
-  }
+      : center(file, kRingCenter, slabs({rings, 3}, 8, options, "m")),
+        normal(file, kRingNormal, slabs({rings, 3}, 8, options, "1")),
+        force(file, kRingForce, slabs({rings, 3}, 8, options, "N")) {}
   void append(const Frame& frame) {
     center.append(flat(frame.ring_center));
     normal.append(flat(frame.ring_normal));
@@ -138,17 +141,12 @@ struct JointSeries {
   JointSeries(h5::File& file, Ways lines, std::size_t joints, const Recorder::Options& options)
       : ways(std::move(lines)),
         element(file, kJointElement, slabs({joints}, 4, options, "")),
-        waypoint(file, kJointWaypoint, slabs({joints, 3}, 24, options, "m")),
+        waypoint(file, kJointWaypoint, slabs({joints, 3}, 8, options, "m")),
         points(file, kWayPoints, rows_of(ways.points(), 3, 8, options, "m")),
         tension(file, kWayTension, rows_of(ways.segments(), 1, 8, options, "N")),
         active(file, kWayActive, rows_of(ways.segments(), 1, 1, options, "1")) {
     const auto connectivity = ways.connectivity();
     file.write<std::int64_t>(kWayConnectivity, connectivity, {connectivity.size()});
-  }
-  static h5::SeriesLayout slabs(h5::Shape row, hsize_t bytes, const Recorder::Options& options,
-                                const char* unit) {
-    const hsize_t rows = chunk_rows(1, row[0] * bytes, options);
-    return {std::move(row), rows, options.compress, unit};
   }
   void append(const Frame& frame) {
     element.append(frame.joint_element);

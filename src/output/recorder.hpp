@@ -1,5 +1,5 @@
-// Writes a run as it happens: DIR/run.vtkhdf, DIR/run.xdmf (rings.xdmf, balls.xdmf) and, at the end,
-// DIR/summary.json.
+// Writes a run as it happens: DIR/run.vtkhdf, DIR/run.xdmf (rings.xdmf, ways.xdmf, balls.xdmf) and, at the
+// end, DIR/summary.json.
 #pragma once
 #include <filesystem>
 #include <memory>

@@ -100,6 +100,7 @@ std::vector<double> loads_of_knots(const Assembly& assembly, const Part& thread,
 
 // A net flies otherwise where one knot is heavier than the next: bench/study, capture.
 void warn_of_uneven_loads(const Scene& scene, const Assembly& assembly, std::vector<std::string>& warnings) {
+  if (assembly.laid.empty()) return;
   const std::vector<bool> in_net = nodes_of_nets(assembly);
   for (const LaidLength& laid : assembly.laid) {
     const Part& part = assembly.parts[at(laid.part)];
