@@ -72,7 +72,7 @@ def _caption(problem: Problem) -> str:
     """What the error is, and the fastest setting for each wanted one."""
     best = "; ".join(_best(problem, wanted) for wanted in problem["best"])
     runs = max(run["runs"] for run in problem["runs"])  # more than one where a problem is chaotic
-    means = f", of means over {runs} runs that begin a little apart" if runs > 1 else ""
+    means = f", of means over up to {runs} runs that begin a little apart" if runs > 1 else ""
     return (f"Lower left is better. Error: {problem['measure']}{means}; the reference's own is "
             f"{number(100 * problem['reference_error'])} %. Fastest, with that and what chance may add counted in: "
             f"{best}.")

@@ -108,7 +108,7 @@ class Study(unittest.TestCase):
         for problem, figure in zip(problems, figures):
             self.assertEqual(len(figure.rows), len(problem["runs"]))
             chaotic = problem["name"] in ("capture", "edge_closure")
-            self.assertEqual(f"means over {max(run['runs'] for run in problem['runs'])} runs" in figure.caption, chaotic)
+            self.assertEqual(f"means over up to {max(run['runs'] for run in problem['runs'])} runs" in figure.caption, chaotic)
             apart = figure.headers.index("a run from the mean, %")
             self.assertEqual(all(row[apart] is None for row in figure.rows), not chaotic)
             self.assertEqual({series["label"] for series in figure.chart["series"]},
