@@ -735,7 +735,7 @@ TEST(Report, The_turnable_net_leads_threads_through_their_rings) {
   model.joints = {{1, 0}};
   Frame frame = square_frame(1);
   frame.joint_element = {4};
-  frame.joint_waypoint = {{0, 1, 0}};
+  frame.joint_waypoint = {{0, 2, 0}};  // beyond all nodes
   { Recorder(scratch.path, model, {}).frame(frame); }
   const Result result(scratch.path);
   const auto view = nlohmann::json::parse(net_view_json(result, result.model(), Camera()));

@@ -358,7 +358,8 @@ TEST(Results, OldRunIsReplacedAndOtherFilesStay) {
   const ResultModel model = small_model(3);
   Recorder recorder(scratch.path, model, {});
   EXPECT_FALSE(fs::exists(scratch.path / "summary.json"));
-  EXPECT_FALSE(fs::exists(scratch.path / "run.xdmf"));
+  for (const char* old : {"run.xdmf", "rings.xdmf", "ways.xdmf", "balls.xdmf"})
+    EXPECT_FALSE(fs::exists(scratch.path / old)) << old;
   EXPECT_TRUE(fs::exists(scratch.path / "notes.txt"));
   recorder.frame(small_frame(model, 0));
   const Result result(scratch.path);  // while the recorder is still at work
@@ -497,7 +498,8 @@ TEST(Results, FullDiskKeepsWhatWasWritten) {
 /// Reads with the HDF5 API alone, so that an error in our own reading cannot hide one in our writing.
 struct Hdf5 {
   hid_t file;
-  explicit Hdf5(const fs::path& path) : file(H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT)) {}
+  explicit Hdf5(const fs::path& path, unsigned access = H5F_ACC_RDONLY)
+      : file(H5Fopen(path.c_str(), access, H5P_DEFAULT)) {}
   ~Hdf5() { H5Fclose(file); }
   template <class T>
   std::vector<T> dataset(const char* name, hid_t type) const {
@@ -520,6 +522,25 @@ struct Hdf5 {
     return dims;
   }
 };
+
+// A writer that was killed may have left less of an array than its counter says.
+TEST(Results, FramesAreThoseThatEveryArrayHas) {
+  for (const char* name : {layout::kPoints, layout::kTension, layout::kRingForce, layout::kJointElement,
+                           layout::kJointWaypoint, "/cinch/energy/kinetic"}) {
+    SCOPED_TRACE(name);
+    const Scratch scratch;
+    record(scratch.path, small_model(5), 3);
+    {
+      const Hdf5 file(scratch.path / "run.vtkhdf", H5F_ACC_RDWR);
+      std::vector<hsize_t> shape = file.shape(name);
+      shape[0] -= 1;  // of the last frame
+      const hid_t set = H5Dopen2(file.file, name, H5P_DEFAULT);
+      EXPECT_GE(H5Dset_extent(set, shape.data()), 0);
+      H5Dclose(set);
+    }
+    EXPECT_EQ(Result(scratch.path).frames(), 2);
+  }
+}
 
 // A kill while HDF5 splits a full node of an index could hide earlier frames: none is ever full.
 TEST(Results, OneIndexNodeHoldsAllChunks) {

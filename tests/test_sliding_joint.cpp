@@ -248,6 +248,27 @@ TEST(SlidingJoint, AThreadStraightThroughARingPullsAsWithout) {
   }
 }
 
+// Over a ring's rim, in the step in which the way has become longer than its element.
+TEST(SlidingJoint, AWayThatTurnsTautPullsByTheLawOfElements) {
+  for (const double share : {0.3, 0.7, 3.0}) {  // of a step since then
+    Bench bench;
+    bench.thread.damping = 0.01;
+    const double leg = 0.5 * bench.thread.rest_length + 5e-6, half = 0.8 * leg, below = 0.004 + 0.6 * leg;
+    const double rate = 1e-5 / share / 1e-6;  // m/s
+    for (const double side : {-1.0, 1.0})
+      bench.nodes.push_back(bench.add({side * half, -below, 0}, {side * 0.5 * rate * leg / half, 0, 0}));
+    const Index ring = bench.add(Vec3::Zero(), Vec3::Zero());
+    bench.add_ring(ring, ring, 0);
+    bench.evaluate();
+    const double length = bench.states[0].length, give = 1e-12 * 2 * bench.node_mobility;
+    EXPECT_NEAR(length, 2 * leg, 1e-9);
+    const plain::Axial item = plain::axial_law(length * length, length * rate, bench.thread.stiffness,
+                                               bench.thread.damping, bench.thread.rest_length, 1e-6, give);
+    EXPECT_EQ(item.spare < 0, share < 1);
+    EXPECT_NEAR(bench.states[0].tension, item.tension, 1e-6 * item.tension) << share;
+  }
+}
+
 TEST(SlidingJoint, ForcesAreTheSlopeOfTheEnergy) {
   Dice dice(3);
   double greatest = 0;
