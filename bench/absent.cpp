@@ -58,7 +58,7 @@ StrippedNet::StrippedNet(const Features& has)
       work_(reduce_forces(model_.topology, Numbering::all(model_.nodes), {})) {
   if (!work_.links.empty() || !work_.kicks.empty())
     throw Error(ExitCode::internal, "error: the stripped programs know no links");
-  const double dt = start_.preparation().dt;
+  const double dt = start_.stepper().plan().dt;
   palette_ = make_palette(model_, model_.topology, dt);
   for (Index i = 0; i < model_.nodes; ++i) scale_.push_back(dt / model_.mass[at(i)]);
   for (auto& f : force_) f.assign(at(work_.force_count), 0.0);

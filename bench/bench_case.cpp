@@ -34,7 +34,7 @@ void measure(benchmark::State& state, Simulation& simulation, std::int64_t batch
   const Model& model = simulation.model();
   const double steps = static_cast<double>(state.iterations() * batch);
   count_steps(state, model, steps, static_cast<double>(simulation.stepper().flown() - flown));
-  count_simulated(state, steps * simulation.preparation().dt);
+  count_simulated(state, steps * simulation.stepper().plan().dt);
   count_scene(state, model.nodes, model.elements, simulation.threads());
   count_shares(state, seconds, wall);
 }

@@ -49,7 +49,7 @@ void peers_net(benchmark::State& state) {
   for (auto _ : state) simulation.advance_to(simulation.step() + batch);
   const double steps = static_cast<double>(state.iterations() * batch);
   count_updates(state, steps * simulation.model().elements);
-  count_simulated(state, steps * simulation.preparation().dt);
+  count_simulated(state, steps * simulation.stepper().plan().dt);
 }
 
 BENCHMARK(bare)->Name("element/bare")->Arg(200)->Arg(2000);

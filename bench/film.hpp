@@ -19,8 +19,7 @@ class Film {
   void wind(Simulation& simulation, double time) const;
 
  private:
-  std::int64_t step_at(double time) const;
-  double dt_ = 0;
+  Timeline timeline_;
   std::map<std::int64_t, State> states_;  ///< by step; that before closing, too
 };
 

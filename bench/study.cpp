@@ -30,10 +30,10 @@ struct Measured {
 // Run time is that of the steps: samples are taken outside of the clock.
 Measured measure_once(const Problem& problem, const Scene& scene) {
   Simulation sim(scene, 1);
-  Measured out{{}, sim.preparation().dt, 0, 0};
+  Measured out{{}, sim.preparation().timeline.after(), 0, 0};
   for (int s = 1; s <= problem.samples; ++s) {
     const double begin = seconds();
-    sim.advance_to(std::llround(problem.end * s / problem.samples / out.step));
+    sim.advance_to(sim.preparation().timeline.step_at(problem.end * s / problem.samples));
     out.seconds += seconds() - begin;
     out.track.times.push_back(sim.time());
     out.track.samples.push_back(problem.sample(sim));

@@ -160,7 +160,7 @@ end = { mass_kg = 0.03, velocity_m_s = [1, 0, 0] }
     scene.time.step = part * stable;
     Simulation simulation(scene, 1);
     ASSERT_EQ(simulation.model().topology.links.size(), 1u);
-    const double per_gain = simulation.model().mass[1] / simulation.preparation().dt;
+    const double per_gain = simulation.model().mass[1] / simulation.preparation().timeline.after();
     while (simulation.time() < 0.05) {  // a look tells the tension that moves the masses
       simulation.advance_to(simulation.step() + 1);
       const Look& look = simulation.look();
@@ -175,7 +175,7 @@ end = { mass_kg = 0.03, velocity_m_s = [1, 0, 0] }
 // Central differences alone win 70 % here.
 TEST(AxialLaw, AnUndampedThreadThatSlackensKeepsItsEnergy) {
   Simulation simulation(slackening_thread(6.2e-6), 1);
-  EXPECT_NEAR(simulation.preparation().dt / simulation.preparation().stable_step, 0.4, 0.01);
+  EXPECT_NEAR(simulation.preparation().timeline.after() / simulation.preparation().stable_step, 0.4, 0.01);
   run_until(simulation, 2);
   EXPECT_LT(simulation.summary().relative_residual, 2e-4);
 }

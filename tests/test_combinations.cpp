@@ -50,7 +50,7 @@ support = "fixed"
 
 Simulation simulate(const std::string& text, double until) {
   Simulation simulation(parse_case(text, "combination.toml"), 1);
-  simulation.advance_to(std::llround(until / simulation.preparation().dt));
+  simulation.advance_to(simulation.preparation().timeline.step_at(until));
   return simulation;
 }
 
@@ -146,7 +146,7 @@ time_s = )" + time + "\n",
     return simulation;
   };
   Simulation soon = run("1e-9");
-  const double step = soon.preparation().dt;
+  const double step = soon.preparation().timeline.after();
   Simulation next = run(std::to_string(step));
   EXPECT_EQ(soon.preparation().closing_step, 1);
   EXPECT_EQ(state_hash(soon.state()), state_hash(next.state()));
@@ -230,7 +230,7 @@ TEST(AutomaticStep, IsSmallForThreadsWithoutDamping) {
     const Preparation p =
         prepare(read_case(std::string(CINCH_SOURCE_DIR "/cases/ring_pull.toml"),
                           {{"time.step_s", "auto"}, {"material.thread.damping_ratio", damping}}));
-    return p.dt / p.stable_step;
+    return p.timeline.after() / p.stable_step;
   };
   EXPECT_GT(share("0.106"), 0.35);
   EXPECT_LE(share("0"), 0.1);

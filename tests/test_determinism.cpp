@@ -58,6 +58,7 @@ TEST(Determinism, SlidingCapture) {
   EXPECT_NE(std::adjacent_find(element.begin(), element.end()), element.end());
 }
 TEST(Determinism, HeldCapture) { expect_same_for_all_threads(held_capture(), {2, 3}, 8, true); }
+TEST(Determinism, CaptureInTwoSteps) { expect_same_for_all_threads(capture_in_two_steps(), {2, 3}, 8, true); }
 TEST(Determinism, FullLargeCapture) { expect_same_for_all_threads(full_large_capture(), {2, 7}, 0, true); }
 
 TEST(Determinism, ThreadsMayChangeAtAnyStep) {
@@ -221,7 +222,8 @@ class InstructionSets : public testing::TestWithParam<const char*> {
     std::string command = "CINCH_ISA=" + isa + " '" + CINCH_PROGRAM + "' run '" + case_file(one) +
                           "' --quiet --out '" + out.string() + "' --threads 1";
     for (const Override& set : one.sets) command += " --set '" + set.key + "=" + set.value + "'";
-    command += " --set time.end_s=" + std::to_string(prepare(read(one)).dt * static_cast<double>(one.steps));
+    command += " --set time.end_s=" +
+               std::to_string(prepare(read(one)).timeline.after() * static_cast<double>(one.steps));
     EXPECT_EQ(std::system((command + " > '" + (folder_ / "log").string() + "' 2>&1").c_str()), 0) << command;
     std::ifstream file(out / "summary.json");
     return nlohmann::json::parse(file);

@@ -172,7 +172,7 @@ TEST(ErrorEstimate, IsNotBelowTheTrueErrorNorFarAbove) {
 TEST(ErrorEstimate, ComparesTheRunsThatItNames) {
   const Scene scene = waving_thread(8);
   Scene half = scene;
-  half.time.step = prepare(scene).dt / 2;
+  half.time.step = prepare(scene).timeline.after() / 2;
   const RunTrack own = follow(scene, 1), by_step = follow(half, 1),
                  by_threads = follow(finer_threads(half, 2), 1);
   const ErrorEstimate::Row row = row_of(estimate_error(scene, {1, 1}, quietly), "end");

@@ -121,7 +121,7 @@ TEST(FreeFlight, OfACaptureUpToItsClosing) {
   for (const char* thread : {"c_top", "c_left", "c_right", "c_bottom"})
     settings.push_back({std::string("thread.") + thread + ".elements", "12"});
   const Scene scene = read_case(CINCH_SOURCE_DIR "/cases/capture.toml", settings);
-  const std::int64_t steps = std::llround(1.51 / prepare(scene).dt);
+  const std::int64_t steps = prepare(scene).timeline.step_at(1.51);
   EXPECT_GT(expect_bits_of_single_steps(scene, steps, steps / 20), steps / 2);
 }
 

@@ -49,7 +49,7 @@ std::string fault_of(Simulation& sim, std::int64_t end) {
 std::string fault_step_by_step(Simulation& sim, double speed_limit) {
   while (sim.step() < 4000 && speeds_allowed(sim.state(), speed_limit)) sim.stepper().advance(sim.state(), 1);
   try {
-    report_runaway(sim.preparation(), sim.state(), speed_limit);
+    report_runaway(sim.preparation(), sim.phase(), sim.state(), speed_limit);
   } catch (const NumericalError& error) {
     return error.what();
   }
@@ -130,7 +130,7 @@ TEST(Health, ASoundRunKeepsItsEnergy) { EXPECT_EQ(energy_fault(slackening_thread
 TEST(Health, AResidualThatIsNoNumberStopsTheRun) {
   const Simulation sim(slackening_thread(sound), 1);
   const auto check = [&](double residual) {
-    check_energy(sim.preparation(), sim.model(), sim.state(), residual, 1, 0.05);
+    check_energy(sim.preparation(), sim.phase(), sim.state(), residual, 1, 0.05);
   };
   EXPECT_NO_THROW(check(0.05));
   EXPECT_THROW(check(std::numeric_limits<double>::quiet_NaN()), NumericalError);

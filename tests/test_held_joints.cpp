@@ -148,7 +148,7 @@ TEST(HeldJoints, TheLongestThatIsAllowedIsStable) {
     SCOPED_TRACE(elements);
     Scene scene = closing_net(elements);
     const Preparation p = prepare(scene);
-    scene.time.joint_steps = joint_steps(p.whole(), p.dt, 1, 1000);
+    scene.time.joint_steps = joint_steps(p.whole(), p.timeline.after(), 1, 1000);
     Simulation sim(scene, 1);
     run_until(sim, 0.4);
     EXPECT_LT(sim.summary().relative_residual, 0.01);

@@ -96,8 +96,9 @@ Assembly as_it_stands(const Simulation& simulation, const Scene& scene) {
   return assembly;
 }
 
-Scene with_step(Scene scene, double dt) {
-  scene.time.step = dt;
+Scene with_steps(Scene scene, const Timeline& timeline) {
+  scene.time.step = timeline.before();
+  scene.closing.step = timeline.after();
   return scene;
 }
 
@@ -109,7 +110,7 @@ std::size_t rings_in_contact(const Simulation& simulation) {
 
 // Advances to the first multiple of 20 steps from `time` on at which at least `wanted` rings are touched.
 void run_to_contact(Simulation& simulation, double time, std::size_t wanted) {
-  simulation.advance_to(std::llround(time / simulation.preparation().dt));
+  simulation.advance_to(simulation.preparation().timeline.step_at(time));
   for (int k = 0; k < 5000 && rings_in_contact(simulation) < wanted; ++k)
     simulation.advance_to(simulation.step() + 20);
   ASSERT_GE(rings_in_contact(simulation), wanted) << "the scene reaches no such state";
@@ -139,7 +140,7 @@ Field ring_forces(const State& state) {
 Field node_forces(Simulation& simulation) {
   State& state = simulation.state();
   const Model& model = simulation.model();
-  const double dt = simulation.preparation().dt;
+  const double dt = simulation.stepper().plan().dt;
   const State before = state;
   simulation.stepper().advance(state, 1);
   const Field moved = velocities(state), rest = velocities(before);
@@ -188,7 +189,7 @@ Field element_forces(const Assembly& assembly, const Field& x, const Field& v) {
 // Forces and potentials of one state, each to `tolerance` times its largest value.
 void compare_forces(Simulation& simulation, const Scene& scene, double tolerance) {
   const Assembly assembly = as_it_stands(simulation, scene);
-  Oracle reference(with_step(scene, simulation.preparation().dt), assembly);
+  Oracle reference(with_steps(scene, Timeline(simulation.stepper().plan().dt)), assembly);
   reference.start();
   const Field x = positions(simulation.state()), v = velocities(simulation.state());
   const oracle::Evaluation expected = reference.evaluate(x, v);
@@ -202,7 +203,7 @@ void compare_forces(Simulation& simulation, const Scene& scene, double tolerance
   EXPECT_LE(difference(node_forces(simulation), expected.force), tolerance * scale);
   EXPECT_LE(difference(ring_forces(simulation.state()), expected.ring_force),
             tolerance * greatest(expected.ring_force));
-  EXPECT_LE(difference(forces_seen(seen, simulation.model(), simulation.preparation().dt),
+  EXPECT_LE(difference(forces_seen(seen, simulation.model(), simulation.stepper().plan().dt),
                        held(simulation.model(), expected.force)),
             tolerance * scale);
   EXPECT_NEAR(seen.energy().elastic, expected.elastic, tolerance * expected.elastic);
@@ -213,13 +214,14 @@ void compare_forces(Simulation& simulation, const Scene& scene, double tolerance
 // Some steps on both sides from the present state. The oracle takes the simulation's velocities as those of t
 // = 0 and steps half a step back; the simulation then goes on from there.
 void compare_steps(Simulation& simulation, const Scene& scene, int steps) {
-  Oracle reference(with_step(scene, simulation.preparation().dt), as_it_stands(simulation, scene));
+  Oracle reference(with_steps(scene, Timeline(simulation.stepper().plan().dt)),
+                   as_it_stands(simulation, scene));
   reference.start();
   State& state = simulation.state();
   const Field begin = reference.result().velocity_half;
   for (std::size_t i = 0; i < begin.size(); ++i)
     state.vx[i] = begin[i].x(), state.vy[i] = begin[i].y(), state.vz[i] = begin[i].z();
-  const double dt = simulation.preparation().dt;
+  const double dt = simulation.stepper().plan().dt;
   const double contact = dissipated_by_contacts(state);
   simulation.advance_to(simulation.step() + 1);
   reference.step();  // it knows of no damper forces before; from here on both do
@@ -244,12 +246,13 @@ void compare_from_start(const Scene& scene, int steps) {
   Assembly begin = assemble(scene);
   const Field hung = simulation.look().positions();
   for (std::size_t i = 0; i < hung.size(); ++i) begin.nodes[i].position = hung[i];
-  Oracle reference(with_step(scene, simulation.preparation().dt), begin);
+  Oracle reference(with_steps(scene, simulation.preparation().timeline), begin);
   reference.start();
   simulation.advance_to(steps);
   reference.step(steps);
   const oracle::Result expected = reference.result();
   EXPECT_TRUE(reference.rings_active());
+  EXPECT_NEAR(simulation.time(), expected.time, 1e-15);
   EXPECT_LE(difference(positions(simulation.state()), expected.position), 1e-12);
   EXPECT_LE(difference(velocities(simulation.state()), expected.velocity_half),
             1e-11 * greatest(expected.velocity_half));
@@ -311,6 +314,16 @@ TEST(OracleAgreementFromStart, EdgeClosure) { compare_from_start(read("edge_clos
 
 TEST(OracleAgreementFromStart, CaptureAcrossClosing) {
   compare_from_start(read("capture", near_capture("0.00003")), 40);
+}
+
+TEST(OracleAgreementFromStart, CaptureWithOtherStepsFromTheClosingTimeOn) {
+  for (const char* step : {"4e-7", "9e-7"}) {
+    SCOPED_TRACE(step);
+    Sets sets = near_capture("0.00003");
+    sets.push_back({"time.step_s", "7e-7"});
+    sets.push_back({"closing.step_s", step});
+    compare_from_start(read("capture", sets), 60);
+  }
 }
 
 // Launchers reach the ball as spheres from the start on, split masses from their separation on.

@@ -23,7 +23,7 @@ class Partition : public testing::Test {
       read_case(CINCH_SOURCE_DIR "/cases/capture.toml", {{"closing.time_s", "0.01"}, {"time.end_s", "0.02"}}),
       1};
 
-  Partition() { simulation.advance_to(std::llround(0.0101 / simulation.preparation().dt)); }
+  Partition() { simulation.advance_to(simulation.preparation().timeline.step_at(0.0101)); }
 
   const Model& model() const { return simulation.model(); }
   const ContactList& contacts() const { return simulation.stepper().contacts(); }
@@ -97,7 +97,7 @@ TEST(PartitionOfALargeCapture, CutsThreadsTogetherWithTheirEdges) {
   std::vector<Override> sets = test::large_capture_with(50);
   sets.push_back({"closing.time_s", "1e-5"});
   Simulation simulation(read_case(CINCH_SOURCE_DIR "/cases/large_capture.toml", sets), 1);
-  simulation.advance_to(std::llround(0.03 / simulation.preparation().dt));
+  simulation.advance_to(simulation.preparation().timeline.step_at(0.03));
   const Model& model = simulation.model();
   const ContactList& contacts = simulation.stepper().contacts();
   constexpr int pieces = 8;

@@ -25,7 +25,7 @@ std::string first_case_in(const std::string& document) {
 Summary run(const std::string& document) {
   const Scene scene = parse_case(first_case_in(document), document);
   Simulation simulation(scene, 1);
-  const std::int64_t steps = std::llround(scene.time.end / simulation.preparation().dt);
+  const std::int64_t steps = simulation.preparation().timeline.step_at(scene.time.end);
   constexpr int looks = 50;
   for (int k = 0; k <= looks; ++k) {
     simulation.advance_to(steps * k / looks);

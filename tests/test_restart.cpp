@@ -100,6 +100,8 @@ TEST(Restart, SlidingRingPull) {
 TEST(Restart, SlidingCapture) { expect_goes_on(sliding_capture(), {20, 26, 1111, 5003}); }
 TEST(Restart, HeldCapture) { expect_goes_on(held_capture(), {20, 25, 26, 27, 1111, 5003}); }
 
+TEST(Restart, CaptureInTwoSteps) { expect_goes_on(capture_in_two_steps(), {20, 24, 25, 26, 1111, 5003}); }
+
 // A mass with a radius hits the target 0.1 ms after the start; its thread touches nothing.
 Scene thrown_sphere() {
   return scene_of(R"(schema = 1
@@ -187,7 +189,10 @@ TEST(Restart, RefusesWhatBelongsToAnotherCase) {
   EXPECT_NE(refusal(read(edge_closure()), entries).find("memory: "), std::string::npos);
   Scene other_step = read(capture());
   other_step.time.step = 0.9e-6;
-  EXPECT_NE(refusal(other_step, entries).find("time_step is not the one"), std::string::npos);
+  EXPECT_NE(refusal(other_step, entries).find(" time_step is not the one"), std::string::npos);
+  Scene other_closing_step = read(capture());
+  other_closing_step.closing.step = 0.9e-6;
+  EXPECT_NE(refusal(other_closing_step, entries).find("closing_time_step is not the one"), std::string::npos);
 }
 
 template <class Value>

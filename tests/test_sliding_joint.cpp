@@ -627,7 +627,7 @@ TEST(SlidingJoint, ALookBooksWhatTheNextStepWill) {
     const Index passes = sim.state().joints[0].passes;
     sim.advance_to(sim.step() + 1);
     if (sim.state().joints[0].passes != passes) continue;
-    const double dt = sim.preparation().dt;
+    const double dt = sim.preparation().timeline.after();
     EXPECT_NEAR(dissipated_by_dampers(sim.state(), dt), booked, 1e-14) << sim.time();
     greatest = std::max(greatest, dt * std::abs(due));
   }

@@ -21,7 +21,7 @@ Cell scene_cell(const std::string& parameter, const std::string& value, Must mus
 
 /// Steps for some travel at that speed, but no fewer and no more than so many.
 std::int64_t steps_for(const Scene& scene, double travel, double speed, Extent extent) {
-  const double steps = travel / speed / prepare(scene).dt;
+  const double steps = travel / speed / prepare(scene).timeline.after();
   return static_cast<std::int64_t>(std::clamp(steps, 2e3, extent == Extent::full ? 4e6 : 1e5));
 }
 
@@ -101,7 +101,8 @@ void add_pressed_nets(std::vector<Cell>& cells) {
                                [=] { return net_on_ball(modulus, elements, alpha); }, {}, {"net.main"});
         cell.run = [=] {
           const Scene scene = net_on_ball(modulus, elements, alpha);
-          return watch([=] { return scene; }, {static_cast<std::int64_t>(0.16 / prepare(scene).dt), 32});
+          return watch([=] { return scene; },
+                       {static_cast<std::int64_t>(0.16 / prepare(scene).timeline.after()), 32});
         };
         cells.push_back(cell);
       }

@@ -28,7 +28,7 @@ void print_counts(const Scene& scene, const Preparation& p) {
   if (scene.equilibrium) std::printf("start            static equilibrium under gravity\n");
   if (p.closing_step >= 0)
     std::printf("closing          at %g s: %d nodes and %d elements join\n",
-                static_cast<double>(p.closing_step) * p.dt,
+                p.timeline.time_of(p.closing_step),
                 static_cast<Index>(p.assembly.nodes.size()) - p.assembly.nodes_before,
                 static_cast<Index>(p.assembly.elements.size()) - p.assembly.elements_before);
 }
@@ -49,11 +49,20 @@ void print_joints(const Assembly& assembly) {
   print("contact, as no thread passes through", missed);
 }
 
-void print_step(const Scene& scene, const Preparation& p) {
-  std::printf("stable step      %.4g s, limited by %s\n", p.stable_step, p.limited_by.c_str());
-  std::printf("step             %.4g s (%s, %.2g of the stable step), %lld steps to %g s\n", p.dt,
-              scene.time.step > 0 ? "given" : "automatic", p.dt / p.stable_step,
-              static_cast<long long>(p.end_step), scene.time.end);
+void print_steps(const Scene& scene, const Preparation& p) {
+  for (const Phase& phase : p.phases) {
+    const bool first = &phase == &p.phases.front();
+    std::printf("%-16s %.4g s, limited by %s\n", first ? "stable step" : "", phase.bound.step,
+                phase.limited_by.c_str());
+  }
+  for (const Phase& phase : p.phases) {
+    const bool first = &phase == &p.phases.front(), last = &phase == &p.phases.back();
+    const double given = last && scene.closing.step ? *scene.closing.step : scene.time.step;
+    const std::int64_t end = last ? p.end_step : std::min(p.closing_step, p.end_step);
+    std::printf("%-16s %.4g s (%s, %.2g of the stable step), %lld steps to %g s\n", first ? "step" : "",
+                phase.plan.dt, given > 0 ? "given" : "automatic", phase.plan.dt / phase.bound.step,
+                static_cast<long long>(end), p.timeline.time_of(end));
+  }
 }
 
 void print_stages(const Preparation& p) {
@@ -199,7 +208,7 @@ int check(const CaseArguments& arguments, const CheckOptions& options) {
   std::vector<std::string> warnings = case_warnings(scene, p);
   print_counts(scene, p);
   print_joints(p.assembly);
-  print_step(scene, p);
+  print_steps(scene, p);
   print_stages(p);
   print_output(scene, p);
   const std::size_t start = memory_at_start(p);

@@ -63,7 +63,7 @@ Scene Restart::scene(const std::vector<Override>& overrides) {
   return parse_case(saved.toml, saved.name + ".toml", overrides);
 }
 
-void Restart::require_later(std::int64_t end_step, double dt) {
+void Restart::require_later(std::int64_t end_step, const Timeline& timeline) {
   std::int64_t step = 0;
   checkpoint_.whole("state/step", step, 0, std::numeric_limits<std::int64_t>::max());
   if (step < end_step) return;
@@ -71,8 +71,7 @@ void Restart::require_later(std::int64_t end_step, double dt) {
   std::snprintf(text, sizeof text,
                 "error: %s stands at %.9g s, and the case ends at %.9g s; to go on give a later end: --set "
                 "time.end_s=SECONDS",
-                checkpoint_.path().c_str(), static_cast<double>(step) * dt,
-                static_cast<double>(end_step) * dt);
+                checkpoint_.path().c_str(), timeline.time_of(step), timeline.time_of(end_step));
   throw CaseError(text);
 }
 

@@ -65,9 +65,9 @@ class Run {
         before_(account_.run_time),
         simulation_(simulate(scene, threads, from)),
         recorder_(record_in(folder_, scene, simulation_, account_, from)),
-        frames_(scene.output.frame_interval, simulation_.preparation().dt),
-        probes_(probe_interval(scene), simulation_.preparation().dt),
-        checkpoints_(scene.output.checkpoint_interval, simulation_.preparation().dt),
+        frames_(scene.output.frame_interval, simulation_.preparation().timeline),
+        probes_(probe_interval(scene), simulation_.preparation().timeline),
+        checkpoints_(scene.output.checkpoint_interval, simulation_.preparation().timeline),
         progress_(scene.time.end, quiet, simulation_.time(), simulation_.step()),
         last_checkpoint_(now()) {
     checkpoints_.due(simulation_.step());
@@ -113,7 +113,7 @@ class Run {
   static Simulation simulate(const Scene& scene, int threads, Restart* from) {
     if (from == nullptr) return Simulation(scene, threads);
     Preparation preparation = prepare(scene);
-    from->require_later(preparation.end_step, preparation.dt);
+    from->require_later(preparation.end_step, preparation.timeline);
     return Simulation(scene, std::move(preparation), threads, from->archive());
   }
   static Recorder record_in(const fs::path& folder, const Scene& scene, const Simulation& simulation,

@@ -1,20 +1,19 @@
 // Steps at which something is due: the k-th is the one nearest to k times an interval.
 #pragma once
-#include <algorithm>
-#include <cmath>
 #include <cstdint>
 #include <limits>
+
+#include "plan/timeline.hpp"
 
 namespace cinch::app {
 
 class Schedule {
  public:
   /// `interval` 0: never.
-  Schedule(double interval, double dt) : interval_(interval), dt_(dt) {}
+  Schedule(double interval, const Timeline& timeline) : interval_(interval), timeline_(timeline) {}
   std::int64_t next() const {
     if (interval_ <= 0) return std::numeric_limits<std::int64_t>::max();
-    // an interval far beyond the end may be more steps than can be counted
-    return std::llround(std::min(static_cast<double>(count_) * interval_ / dt_, 9e18));
+    return timeline_.step_at(static_cast<double>(count_) * interval_);
   }
   /// Whether it is due at `step`; from then on the next one is.
   bool due(std::int64_t step) {
@@ -24,7 +23,8 @@ class Schedule {
   }
 
  private:
-  double interval_, dt_;
+  double interval_;
+  Timeline timeline_;
   std::int64_t count_ = 0;
 };
 

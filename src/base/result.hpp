@@ -21,7 +21,8 @@ struct ResultModel {
   std::string case_name, title, about, case_toml;  ///< case_toml: resolved, every default written out
   std::string version, commit, compiler, isa;
   int threads = 1;
-  double time_step = 0;                        ///< s
+  double time_step = 0;                        ///< s, before the closing time
+  double closing_time_step = 0;                ///< s, from the closing time on
   std::vector<std::array<Index, 2>> elements;  ///< node numbers of each element
   std::vector<double> rest_length;             ///< m, of each element
   std::vector<double> element_radius;          ///< m
@@ -131,7 +132,8 @@ struct Summary {
   std::string case_name, version, commit, compiler, isa, host;
   int threads = 1;
   std::int64_t steps = 0;
-  double time_step = 0, simulated_seconds = 0, wall_seconds = 0;
+  double time_step = 0, closing_time_step = 0;  ///< s, before the closing time and from it on
+  double simulated_seconds = 0, wall_seconds = 0;
   int joint_steps = 1;  ///< for which forces of sliding joints hold
   Index nodes = 0, elements = 0, rings = 0;
   double stable_step = 0;  ///< s

@@ -160,8 +160,10 @@ void CaseBuilder::read_run() {
   read_single(gravity_section(), scene_);
   if (const SectionValues* start = read_single(start_section(), scene_))
     scene_.equilibrium_source.text = diagnostics_.where(start->place_of("equilibrium"));
-  if (const SectionValues* closing = read_single(closing_section(), scene_.closing))
+  if (const SectionValues* closing = read_single(closing_section(), scene_.closing)) {
     scene_.closing.source.text = diagnostics_.where(closing->place_of("time_s"));
+    scene_.closing.step_source.text = diagnostics_.where(closing->place_of("step_s"));
+  }
   read_single(contact_section(), scene_.contact);
 }
 
@@ -190,12 +192,14 @@ void CaseBuilder::check_run() {
     fail(place("output", "probe_interval_s"),
          "output.probe_interval_s: found " + toml_text(output.probe_interval) + " with " + end +
              ", allowed: >= " + toml_text(time.end / max_samples) + " s, at most 1e7 samples a run");
-  if (time.step > 0 && time.end / time.step > max_steps)
-    fail(place("time", "step_s"), "time.step_s: found " + toml_text(time.step) + " with " + end +
-                                      ", allowed: >= " + toml_text(time.end / max_steps) + " s");
-  if (time.step > 0 && time.step > time.end)
-    fail(place("time", "step_s"),
-         "time.step_s: found " + toml_text(time.step) + " with " + end + ", allowed: a step below the end");
+  const auto check_step = [&](const char* section, double step) {
+    const std::string found = std::string(section) + ".step_s: found " + toml_text(step) + " with " + end;
+    if (step > 0 && time.end / step > max_steps)
+      fail(place(section, "step_s"), found + ", allowed: >= " + toml_text(time.end / max_steps) + " s");
+    if (step > time.end) fail(place(section, "step_s"), found + ", allowed: a step below the end");
+  };
+  check_step("time", time.step);
+  check_step("closing", scene_.closing.step.value_or(0));
   if (scene_.equilibrium && !scene_.gravity)
     fail(place("start", "equilibrium"), "start.equilibrium: found true in a case without [gravity]",
          "allowed: false, or a section [gravity] with acceleration_m_s2");

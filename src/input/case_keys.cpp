@@ -199,6 +199,20 @@ const Section<Closing>& closing_section() {
                 "Starting time of closing. Before it the closing threads and rings are extra mass only "
                 "(Sec. 5.3)."},
            into(&Closing::time)},
+          {{.name = "step_s",
+            .unit = "s",
+            .range = above(0, 1),
+            .words = {"auto"},
+            .fallback_note = "that of `[time]`",
+            .meaning = "Time step from the closing time on. `auto`: `safety` times the stable step of what "
+                       "moves then."},
+           [](Closing& closing, const Value& value) { closing.step = value.is_word ? 0 : value.number; }},
+          {{.name = "safety",
+            .range = above(0, 1),
+            .fallback_note = "that of `[time]`",
+            .meaning = "Automatic step over the stable step from the closing time on.",
+            .source = "a net that unfolds is jerked taut, one that closes allows longer steps (README)"},
+           into(&Closing::safety)},
       });
   return section;
 }

@@ -97,7 +97,8 @@ class Comparer {
   void meshes();
   void elements();
   void bodies();
-  double slack() const { return 0.5 * (a_.model().time_step + b_.model().time_step); }
+  static double longest_step(const ResultModel& m) { return std::max(m.time_step, m.closing_time_step); }
+  double slack() const { return 0.5 * (longest_step(a_.model()) + longest_step(b_.model())); }
   void partners_lacking(const string& what, const Partners& partners);
   void frames();
   void frame(int k, int l);
@@ -184,7 +185,8 @@ void Comparer::models() {
   if (a.case_toml != b.case_toml) out_.notes.push_back("the resolved case texts differ");
   meshes();
   if (a.closing_time.has_value() != b.closing_time.has_value()) differ("only one of them has a closing time");
-  list("time step", "s", std::vector{a.time_step}, std::vector{b.time_step});
+  list("time steps", "s", std::vector{a.time_step, a.closing_time_step},
+       std::vector{b.time_step, b.closing_time_step});
   list("closing time", "s", std::vector{a.closing_time.value_or(0)}, std::vector{b.closing_time.value_or(0)});
   if (same_mesh_) elements();
   bodies();

@@ -91,8 +91,13 @@ void print_events(const Summary& summary, std::ostream& out) {
 void print_verdict(const Summary& summary, std::ostream& out) {
   line(out, "status", "%s%s%s", summary.status.c_str(), summary.message.empty() ? "" : ": ",
        reason(summary).c_str());
-  line(out, "steps", "%lld of %.9g s, %.9g s simulated", static_cast<long long>(summary.steps),
-       summary.time_step, summary.simulated_seconds);
+  const auto steps = static_cast<long long>(summary.steps);
+  if (summary.time_step == summary.closing_time_step)
+    line(out, "steps", "%lld of %.9g s, %.9g s simulated", steps, summary.time_step,
+         summary.simulated_seconds);
+  else
+    line(out, "steps", "%lld, of %.9g s before closing and %.9g s from then on, %.9g s simulated", steps,
+         summary.time_step, summary.closing_time_step, summary.simulated_seconds);
   if (summary.joint_steps > 1)
     line(out, "sliding joints", "forces hold for %d steps each time", summary.joint_steps);
   line(out, "stable step", "%.4g s, limited by %s", summary.stable_step,

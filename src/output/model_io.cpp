@@ -75,6 +75,7 @@ void write_description(h5::File& file, const ResultModel& model) {
   file.set_attribute(kCinch, "isa", model.isa);
   file.set_attribute(kCinch, "threads", std::int64_t{model.threads});
   file.set_attribute(kCinch, "time_step", model.time_step);
+  file.set_attribute(kCinch, "closing_time_step", model.closing_time_step);
   if (model.closing_time) file.set_attribute(kCinch, "closing_time", *model.closing_time);
   // Data sets, because an attribute holds no more than 64 kB.
   file.write_text("/cinch/title", model.title);
@@ -134,7 +135,9 @@ void read_description(const h5::File& file, ResultModel& model) {
   model.compiler = file.text_attribute(kCinch, "compiler");
   model.isa = file.text_attribute(kCinch, "isa");
   model.threads = static_cast<int>(file.integer_attribute(kCinch, "threads"));
-  model.time_step = file.real_attribute(kCinch, "time_step");
+  model.time_step = model.closing_time_step = file.real_attribute(kCinch, "time_step");
+  if (file.has_attribute(kCinch, "closing_time_step"))  // older results have none
+    model.closing_time_step = file.real_attribute(kCinch, "closing_time_step");
   if (file.has_attribute(kCinch, "closing_time")) {
     model.closing_time = file.real_attribute(kCinch, "closing_time");
   }

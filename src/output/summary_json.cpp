@@ -101,7 +101,8 @@ void read_program(const Json& json, Summary& summary) {
   json.at("elements").get_to(summary.elements);
   json.at("ring_count").get_to(summary.rings);
   summary.time_step = real(json, "time_step");
-  summary.joint_steps = json.value("joint_steps", 1);  // older results have none
+  summary.closing_time_step = json.value("closing_time_step", summary.time_step);  // older results have none
+  summary.joint_steps = json.value("joint_steps", 1);                              // older results have none
   summary.simulated_seconds = real(json, "simulated_seconds");
   summary.wall_seconds = real(json, "wall_seconds");
   summary.stable_step = real(json, "stable_step");
@@ -158,6 +159,7 @@ std::string summary_to_json(const Summary& summary) {
             {"threads", summary.threads},
             {"steps", summary.steps},
             {"time_step", summary.time_step},
+            {"closing_time_step", summary.closing_time_step},
             {"joint_steps", summary.joint_steps},
             {"simulated_seconds", summary.simulated_seconds},
             {"wall_seconds", summary.wall_seconds},

@@ -10,7 +10,8 @@ namespace {
 constexpr std::size_t at(Index i) { return static_cast<std::size_t>(i); }
 
 template <class Tally>
-void check_stiffness(const Preparation& preparation, bool ring, std::size_t number, const Tally& tally) {
+void check_stiffness(const Preparation& preparation, double dt, bool ring, std::size_t number,
+                     const Tally& tally) {
   if (!(tally.stiffest > 1)) return;
   char text[500];
   std::snprintf(
@@ -18,15 +19,14 @@ void check_stiffness(const Preparation& preparation, bool ring, std::size_t numb
       "error: at t = %.9g s the contact of %s with %s needed %.3g times what the stable step leaves; "
       "likely cause: an impact too hard for the time step %.3g s; a step of %.2g s would carry it",
       tally.stiffest_time, item_label(preparation, tally.stiffest_element).c_str(),
-      partner_label(preparation, ring, number).c_str(), tally.stiffest, preparation.dt,
-      preparation.dt / tally.stiffest * 0.9);
+      partner_label(preparation, ring, number).c_str(), tally.stiffest, dt, dt / tally.stiffest * 0.9);
   throw NumericalError(text);
 }
 
 // `distance`: at which the thinnest of what touches would be through.
 template <class Tally>
-void check_depth(const Preparation& preparation, const State& state, bool ring, std::size_t number,
-                 const Tally& tally, double distance) {
+void check_depth(const Preparation& preparation, const Phase& phase, const State& state, bool ring,
+                 std::size_t number, const Tally& tally, double distance) {
   if (!(tally.max_penetration > pressed_share * distance)) return;
   char text[500];
   std::snprintf(
@@ -34,9 +34,8 @@ void check_depth(const Preparation& preparation, const State& state, bool ring, 
       "error: at t = %.9g s %s (or a neighbour) is pressed %.3g m into %s, of the %.3g m at which it "
       "would be through; likely cause: a contact too soft for the pull, or a time step too long for "
       "an impact (%.3g s)",
-      static_cast<double>(state.step) * preparation.dt,
-      item_label(preparation, tally.stiffest_element).c_str(), tally.max_penetration,
-      partner_label(preparation, ring, number).c_str(), distance, preparation.dt);
+      preparation.timeline.time_of(state.step), item_label(preparation, tally.stiffest_element).c_str(),
+      tally.max_penetration, partner_label(preparation, ring, number).c_str(), distance, phase.plan.dt);
   throw NumericalError(text);
 }
 
@@ -52,32 +51,32 @@ std::string partner_label(const Preparation& preparation, bool ring, std::size_t
               : "target '" + preparation.assembly.balls[number].name + "'";
 }
 
-void check_contacts(const Preparation& preparation, const Model& model, const State& state) {
+void check_contacts(const Preparation& preparation, const Phase& phase, const State& state) {
+  const Model& model = phase.model;
   for (std::size_t r = 0; r < state.rings.size(); ++r) {
     if (model.slides(r)) continue;
-    check_stiffness(preparation, true, r, state.rings[r]);
-    check_depth(preparation, state, true, r, state.rings[r],
+    check_stiffness(preparation, phase.plan.dt, true, r, state.rings[r]);
+    check_depth(preparation, phase, state, true, r, state.rings[r],
                 model.ring_wire_radius[r] + model.contact_sets[at(model.ring_set[r])].thinnest);
   }
   for (std::size_t b = 0; b < state.balls.size(); ++b)
     for (const kernel::BallTally& tally : state.balls[b]) {
-      check_stiffness(preparation, false, b, tally);
-      check_depth(preparation, state, false, b, tally, model.balls[b].radius);
+      check_stiffness(preparation, phase.plan.dt, false, b, tally);
+      check_depth(preparation, phase, state, false, b, tally, model.balls[b].radius);
     }
 }
 
-void report_jump(const Preparation& preparation, const State& state, const Jump& jump) {
+void report_jump(const Preparation& preparation, const Phase& phase, const State& state, const Jump& jump) {
   const auto with = at(jump.pair.with);
   const std::string name = partner_label(preparation, jump.ring, with);
-  const double allowed = jump_share * jump.pair.contact_distance;
+  const double allowed = jump_share * jump.pair.contact_distance, dt = phase.plan.dt;
   char text[600];
   std::snprintf(
       text, sizeof text,
       "error: at t = %.9g s %s comes towards %s by %.3g m in one step, too far to see it touch (allowed: "
       "%.3g m); likely cause: the time step %.3g s is too long for %.3g m/s; a step of %.2g s would do",
-      static_cast<double>(state.step) * preparation.dt, item_label(preparation, jump.pair.element).c_str(),
-      name.c_str(), jump.motion, allowed, preparation.dt, jump.motion / preparation.dt,
-      0.9 * allowed / jump.motion * preparation.dt);
+      preparation.timeline.time_of(state.step), item_label(preparation, jump.pair.element).c_str(),
+      name.c_str(), jump.motion, allowed, dt, jump.motion / dt, 0.9 * allowed / jump.motion * dt);
   throw NumericalError(text);
 }
 

@@ -45,22 +45,23 @@ AtRing nearest_to_ring(const Model& model, const State& state) {
   return found;
 }
 
-std::string likely_cause(const Preparation& preparation, const Model& model, const State& state) {
+std::string likely_cause(const Preparation& preparation, const Phase& phase, const State& state) {
   char text[400];
+  const Model& model = phase.model;
   const AtRing near = nearest_to_ring(model, state);
   if (near.joint < 0)
     std::snprintf(text, sizeof text,
                   "the time step %.3g s is too large for threads that turn slack and taut or for impacts "
                   "(stable step %.3g s); take half of it, or more damping",
-                  preparation.dt, preparation.stable_step);
+                  phase.plan.dt, phase.bound.step);
   else
     std::snprintf(
         text, sizeof text,
         "%s is drawn to ring '%s', nearer than its element is stretched: its pull turns round within "
         "the time step %.3g s (stable step %.3g s); give it a mass, or take a far smaller step",
         node_label(preparation.assembly, near.node).c_str(),
-        preparation.assembly.rings[at(model.joints[at(near.joint)].ring)].name.c_str(), preparation.dt,
-        preparation.stable_step);
+        preparation.assembly.rings[at(model.joints[at(near.joint)].ring)].name.c_str(), phase.plan.dt,
+        phase.bound.step);
   return text;
 }
 
@@ -77,7 +78,7 @@ Fastest fastest_node(const State& state) {
   return {fastest, state.vx.empty() ? 0 : std::hypot(state.vx[i], state.vy[i], state.vz[i])};
 }
 
-void check_energy(const Preparation& preparation, const Model& model, const State& state, double residual,
+void check_energy(const Preparation& preparation, const Phase& phase, const State& state, double residual,
                   double scale, double limit) {
   if (std::abs(residual) <= limit * scale + least_energy) return;  // not so for what is no number
   const Fastest fastest = fastest_node(state);
@@ -88,10 +89,10 @@ void check_energy(const Preparation& preparation, const Model& model, const Stat
       "error: at t = %.9g s %.3g J have %s, %.3g times what the scene began with and what was put in "
       "(time.residual_limit = %.3g); fastest: %s at (%.6g, %.6g, %.6g) m with %.3g m/s; likely "
       "cause: %s",
-      static_cast<double>(state.step) * preparation.dt, std::abs(residual),
+      preparation.timeline.time_of(state.step), std::abs(residual),
       residual < 0 ? "come from nowhere" : "been lost", scale > 0 ? std::abs(residual) / scale : HUGE_VAL,
       limit, node_label(preparation.assembly, fastest.node).c_str(), state.x[i], state.y[i], state.z[i],
-      fastest.speed, likely_cause(preparation, model, state).c_str());
+      fastest.speed, likely_cause(preparation, phase, state).c_str());
   throw NumericalError(text);
 }
 
@@ -105,8 +106,9 @@ bool speeds_allowed(const State& state, double speed_limit) {
   return allowed;
 }
 
-void report_runaway(const Preparation& preparation, const State& state, double speed_limit) {
-  const double time = static_cast<double>(state.step) * preparation.dt;
+void report_runaway(const Preparation& preparation, const Phase& phase, const State& state,
+                    double speed_limit) {
+  const double time = preparation.timeline.time_of(state.step);
   const auto [worst, fastest] = fastest_node(state);
   char text[600];
   std::snprintf(text, sizeof text,
@@ -114,8 +116,8 @@ void report_runaway(const Preparation& preparation, const State& state, double s
                 "%.3g); likely "
                 "cause: the time step %.3g s is too large (stable step %.3g s, limited by %s)",
                 time, node_label(preparation.assembly, worst).c_str(), state.x[at(worst)], state.y[at(worst)],
-                state.z[at(worst)], fastest, speed_limit, preparation.dt, preparation.stable_step,
-                preparation.limited_by.c_str());
+                state.z[at(worst)], fastest, speed_limit, phase.plan.dt, phase.bound.step,
+                phase.limited_by.c_str());
   throw NumericalError(text);
 }
 

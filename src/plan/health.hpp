@@ -18,13 +18,14 @@ Fastest fastest_node(const State& state);
 
 /// Throws NumericalError when more energy has come from nowhere, or gone there, than `limit` times `scale`
 /// (J).
-void check_energy(const Preparation& preparation, const Model& model, const State& state, double residual,
+void check_energy(const Preparation& preparation, const Phase& phase, const State& state, double residual,
                   double scale, double limit);
 
 /// True if the speed of every node is finite and within `speed_limit` (m/s).
 bool speeds_allowed(const State& state, double speed_limit);
 
 /// Throws NumericalError that names the first node without a finite speed, else the fastest.
-[[noreturn]] void report_runaway(const Preparation& preparation, const State& state, double speed_limit);
+[[noreturn]] void report_runaway(const Preparation& preparation, const Phase& phase, const State& state,
+                                 double speed_limit);
 
 }  // namespace cinch

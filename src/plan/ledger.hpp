@@ -29,7 +29,8 @@ class Ledger {
   void book_closing(const Energies& before, const State& state_before, const Energies& laid,
                     const Energies& separated, const State& state_after, const Model& model_before,
                     const Model& model_after);
-  /// Impulse that supports gave when they stopped a node at the closing time.
+  /// Impulse that supports gave when they stopped a node at the closing time; or that what acts from outside
+  /// gave between two instants half a step back, where the step changes.
   void book_supports(const Momentum& impulse);
   /// All terms at the time of a look that saw `now`.
   Energies energies(const Energies& now);

@@ -57,7 +57,7 @@ void Look::take(Stepper& stepper, State& state, const Assembly& assembly, bool h
   state_ = &state;
   assembly_ = &assembly;
   dt_ = stepper.plan().dt;
-  time_ = static_cast<double>(state.step) * dt_;
+  time_ = stepper.plan().timeline.time_of(state.step);
   share_ = half_step ? 0.5 : 0.0;
   stepper.glance(state, glance_);
   sum_energies();

@@ -24,7 +24,7 @@ std::string describe(const Preparation& preparation, const Overlap& overlap) {
 
 // Whether it is too great to begin with: it holds much of the energy, or needs a shorter step at once.
 bool decides(const Overlap& overlap, const Preparation& preparation, const State& state) {
-  const double begin = static_cast<double>(overlap.step) * preparation.dt;
+  const double begin = preparation.timeline.time_of(overlap.step);
   const auto with = at(overlap.pair.with);
   const auto at_once = [&](const auto& tally) { return tally.stiffest > 1 && tally.stiffest_time <= begin; };
   if (overlap.share >= great_share) return true;
@@ -68,7 +68,7 @@ std::string OverlapWatch::warning(const Preparation& preparation) const {
   char text[120];
   std::snprintf(text, sizeof text,
                 " where contact begins (t = %.6g s): %.3g %% of the energy comes from overlaps",
-                static_cast<double>(overlap_->step) * preparation.dt, 100 * overlap_->share);
+                preparation.timeline.time_of(overlap_->step), 100 * overlap_->share);
   return describe(preparation, *overlap_) + text;
 }
 
@@ -76,8 +76,7 @@ void OverlapWatch::report(const Preparation& preparation, const std::string& wha
   const std::string prefix = "error: ";
   const std::size_t begin = what.starts_with(prefix) ? prefix.size() : 0;
   char time[64];
-  std::snprintf(time, sizeof time, "error: at t = %.9g s ",
-                static_cast<double>(overlap_->step) * preparation.dt);
+  std::snprintf(time, sizeof time, "error: at t = %.9g s ", preparation.timeline.time_of(overlap_->step));
   throw NumericalError(
       time + describe(preparation, *overlap_) + "; likely cause: an overlap at the start" +
       (overlap_->step > 0 ? " of closing" : "") +

@@ -361,7 +361,7 @@ double Piece::load_nodes(std::span<const kernel::Load> loads) {
 }
 
 double Piece::step(std::int64_t number, double motion, StageClock& clock) {
-  const double time = static_cast<double>(number) * plan_.dt;
+  const double time = plan_.timeline.time_of(number);
   const auto constraints = static_cast<Index>(constraints_.size());
   if (plan_.touches()) contacts_.evaluate(view(), plan_, time, plan_.dt, motion);
   if (plan_.joints) {
@@ -432,7 +432,7 @@ void Piece::lend(Glance& out) {
 
 void Piece::glance(State& state, double motion, Glance& out) {
   take(state);
-  const double time = static_cast<double>(state.step) * plan_.dt;
+  const double time = plan_.timeline.time_of(state.step);
   if (plan_.touches()) contacts_.evaluate(view(), plan_, time, 0, motion);
   if (plan_.joints) {
     joints_.glance(view(), plan_, state.step);

@@ -21,39 +21,65 @@ double greatest_safety(double damping_ratio) {
 std::string place_of(const SourceRef& source) { return source.text.empty() ? "" : source.text + ": "; }
 
 // A step that fits whole numbers of times into the frame interval, below safety x bound.
-double automatic_step(const Scene& scene, double bound) {
+double automatic_step(const Scene& scene, double safety, double bound) {
   const double interval = scene.output.frame_interval;
-  double safety = scene.time.safety;
   for (const auto& [name, material] : scene.materials)
     safety = std::min(safety, greatest_safety(material.damping_ratio));
   const double wanted = std::isfinite(bound) ? safety * bound : interval;
   return interval / std::ceil(interval / wanted);
 }
 
+// What the case says of the steps of a phase.
+struct StepKeys {
+  const char* key;   // that gives the step
+  double step;       // s; 0: automatic
+  double safety;     // of an automatic one
+  SourceRef source;  // of the step
+};
+
+StepKeys keys_of(const Scene& scene, Stage stage) {
+  const TimeSpec& time = scene.time;
+  StepKeys keys{"time.step_s", time.step, time.safety, time.source};
+  if (stage == Stage::before_closing) return keys;
+  if (scene.closing.safety) keys.safety = *scene.closing.safety;
+  if (scene.closing.step)
+    keys = {"closing.step_s", *scene.closing.step, keys.safety, scene.closing.step_source};
+  return keys;
+}
+
 // Sums of constants from 1e-60 to 1e60 can still give a step that leads nowhere.
-void check_number_of_steps(const Scene& scene, const Preparation& p) {
+void check_number_of_steps(const Scene& scene, const StepKeys& keys, const Phase& phase, double dt) {
   constexpr double most = 1e12;
-  if (p.dt > 0 && scene.time.end / p.dt <= most) return;
+  if (dt > 0 && scene.time.end / dt <= most) return;
   char text[400];
   std::snprintf(
       text, sizeof text,
       "error: the stable step is %.3g s, limited by %s; that makes %.3g steps to %.6g s, allowed: at most "
       "%.0e",
-      p.stable_step, p.limited_by.c_str(), scene.time.end / p.dt, scene.time.end, most);
-  throw CaseError(place_of(scene.time.source) + text);
+      phase.bound.step, phase.limited_by.c_str(), scene.time.end / dt, scene.time.end, most);
+  throw CaseError(place_of(keys.source) + text);
 }
 
-void check_step(const Scene& scene, const Preparation& p) {
-  if (scene.time.allow_unstable || p.dt <= p.stable_step) return;
+void check_step(const Scene& scene, const StepKeys& keys, const Phase& phase, double dt) {
+  if (scene.time.allow_unstable || dt <= phase.bound.step) return;
   // four digits, rounded down: the step in the message must work
-  const double digits = std::pow(10.0, std::floor(std::log10(p.stable_step)) - 3);
+  const double digits = std::pow(10.0, std::floor(std::log10(phase.bound.step)) - 3);
   char text[400];
-  std::snprintf(
-      text, sizeof text,
-      "error: time.step_s = %.6g s is above the stable step, limited by %s; the largest step that works is "
-      "%.4g s (or time.step_s = \"auto\", or time.allow_unstable = true)",
-      p.dt, p.limited_by.c_str(), std::floor(p.stable_step / digits) * digits);
-  throw CaseError(place_of(scene.time.source) + text);
+  std::snprintf(text, sizeof text,
+                "error: %s = %.6g s is above the stable step, limited by %s; the largest step that works is "
+                "%.4g s (or %s = \"auto\", or time.allow_unstable = true)",
+                keys.key, dt, phase.limited_by.c_str(), std::floor(phase.bound.step / digits) * digits,
+                keys.key);
+  throw CaseError(place_of(keys.source) + text);
+}
+
+// Throws CaseError for one that the phase does not allow.
+double step_of(const Scene& scene, Stage stage, const Phase& phase) {
+  const StepKeys keys = keys_of(scene, stage);
+  const double dt = keys.step > 0 ? keys.step : automatic_step(scene, keys.safety, phase.bound.step);
+  check_step(scene, keys, phase, dt);
+  check_number_of_steps(scene, keys, phase, dt);
+  return dt;
 }
 
 // At half of what is stable errors stay those of 1 (bench/study); more than 8 steps would save next to
@@ -100,35 +126,52 @@ std::string node_label(const Assembly& assembly, Index node) {
   return "node " + std::to_string(node);
 }
 
-Preparation prepare(const Scene& scene) {
-  Preparation p;
-  p.assembly = assemble(scene);
-  const bool closes = p.assembly.has_closing();
+namespace {
+
+void add_phases(const Scene& scene, Preparation& p) {
+  const bool deploys = p.assembly.has_closing() && scene.closing.time.value_or(0) > 0;
   const auto add = [&](const char* name, Stage stage) {
-    Phase phase{name, build_model(p.assembly, scene, stage), {}, {}};
+    Phase phase{name, build_model(p.assembly, scene, stage), {}, "", {}};
     phase.bound = stable_step(phase.model);
     p.phases.push_back(std::move(phase));
   };
-  if (closes && scene.closing.time.value_or(0) > 0) add("deployment", Stage::before_closing);
-  add(p.phases.empty() ? "whole scene" : "closing", Stage::closing);
-  p.stable_step = std::numeric_limits<double>::infinity();
-  for (const Phase& phase : p.phases)
-    if (phase.bound.step < p.stable_step) {
-      p.stable_step = phase.bound.step;
-      p.limited_by = element_label(p, phase.bound.element);
-      if (p.phases.size() > 1) p.limited_by += " while " + phase.name;
-    }
-  p.dt = scene.time.step > 0 ? scene.time.step : automatic_step(scene, p.stable_step);
-  check_step(scene, p);
-  check_number_of_steps(scene, p);
-  p.end_step = std::llround(scene.time.end / p.dt);
-  // what closes after t = 0 was deployed first: for a step at least
+  if (deploys) add("deployment", Stage::before_closing);
+  add(deploys ? "closing" : "whole scene", Stage::closing);
+  for (Phase& phase : p.phases) {                    // labels know the whole scene
+    if (!std::isfinite(phase.bound.step)) continue;  // nothing limits it
+    phase.limited_by = element_label(p, phase.bound.element);
+    if (deploys) phase.limited_by += " while " + phase.name;
+  }
+}
+
+void note_least_stable_step(Preparation& p) {
+  const auto least = std::min_element(p.phases.begin(), p.phases.end(), [](const Phase& l, const Phase& r) {
+    return l.bound.step < r.bound.step;
+  });
+  p.stable_step = least->bound.step;
+  p.limited_by = least->limited_by;
+}
+
+}  // namespace
+
+Preparation prepare(const Scene& scene) {
+  Preparation p;
+  p.assembly = assemble(scene);
+  add_phases(scene, p);
+  note_least_stable_step(p);
   const bool deploys = p.phases.size() > 1;
-  const double closing_steps = std::min(scene.closing.time.value_or(0) / p.dt, 9e18);
-  if (closes) p.closing_step = std::max<std::int64_t>(std::llround(closing_steps), deploys);
-  for (Phase& phase : p.phases) {
-    phase.plan = plan_steps(scene, phase.model, p.dt);
-    phase.plan.joint_steps = joint_steps_of(scene, phase.model, p.dt, p.stable_step);
+  std::vector<double> dt;
+  for (const Phase& phase : p.phases)
+    dt.push_back(step_of(scene, deploys && dt.empty() ? Stage::before_closing : Stage::closing, phase));
+  // what closes after t = 0 was deployed first: for a step at least
+  if (p.assembly.has_closing())
+    p.closing_step = std::max<std::int64_t>(Timeline(dt[0]).step_at(scene.closing.time.value_or(0)), deploys);
+  p.timeline = deploys ? Timeline(dt[0], dt[1], p.closing_step) : Timeline(dt[0]);
+  p.end_step = p.timeline.step_at(scene.time.end);
+  for (std::size_t i = 0; i < p.phases.size(); ++i) {
+    Phase& phase = p.phases[i];
+    phase.plan = plan_steps(scene, phase.model, dt[i], p.timeline);
+    phase.plan.joint_steps = joint_steps_of(scene, phase.model, dt[i], phase.bound.step);
   }
   if (deploys) p.phases.back().plan.first_step = p.closing_step;
   return p;

@@ -15,6 +15,7 @@ struct Phase {
   std::string name;  ///< "deployment" or "closing" where the scene has both, else "whole scene"
   Model model;
   StableStep bound;
+  std::string limited_by;  ///< the element that limits the step, in words
   StepPlan plan;
 };
 
@@ -23,8 +24,8 @@ struct Preparation {
   std::vector<Phase> phases;       ///< one or two, in order of time
   std::int64_t closing_step = -1;  ///< first step of the closing phase; -1: nothing closes
   std::int64_t end_step = 0;
-  double dt = 0;           ///< s
-  double stable_step = 0;  ///< s, over all phases
+  Timeline timeline;
+  double stable_step = 0;  ///< s, the least of all phases
   std::string limited_by;  ///< the element that limits it, in words
 
   /// All nodes and elements that the scene ever has.

@@ -44,9 +44,13 @@ void Simulation::restore(Archive& saved) {
 }
 
 void Simulation::transfer(Archive& archive) {
-  double dt = preparation_.dt;
-  archive.value("time_step", dt);
-  if (dt != preparation_.dt) archive.refuse("time_step", "is not the one that the case gives");
+  const auto same_step = [&](const char* name, const double given) {
+    double dt = given;
+    archive.value(name, dt);
+    if (dt != given) archive.refuse(name, "is not the one that the case gives");
+  };
+  same_step("time_step", preparation_.timeline.before());
+  same_step("closing_time_step", preparation_.timeline.after());
   const auto last = static_cast<std::int64_t>(preparation_.phases.size()) - 1;
   archive.whole("phase", phase_, 0, last);
   if (archive.restoring()) {

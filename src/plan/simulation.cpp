@@ -133,7 +133,7 @@ void Simulation::enter_phase(std::size_t number) {
   phase_ = number;
   const Phase& p = phase();
   std::vector<double> share;
-  if (p.plan.contacts()) share = node_share(p.model, preparation_.dt, p.plan.joint_steps);
+  if (p.plan.contacts()) share = node_share(p.model, p.plan.dt, p.plan.joint_steps);
   stepper_ = std::make_unique<Stepper>(p.model, p.plan, std::move(share), threads_);
   choice_ = {threads_, ThreadChoice::worth_it(p.model.elements) ? most_threads_ : 1};
 }
@@ -153,12 +153,7 @@ void Simulation::start() {
     for (const Mechanism& mechanism : scene_.mechanisms) events_.push_back({0, "separation", mechanism.name});
   }
   look_.take(*stepper_, state_, preparation_.assembly, false);
-  for (Index i = 0; i < m.nodes; ++i) {
-    const Vec3 half = 0.5 * look_.gain(i);
-    state_.vx[at(i)] -= half.x();
-    state_.vy[at(i)] -= half.y();
-    state_.vz[at(i)] -= half.z();
-  }
+  set_back(0.5);
   drop_negative_zeros(state_);
   remember();
   look();
@@ -172,6 +167,27 @@ void Simulation::start() {
   has_mouth_ = mouth_area(ring_start_) > 0.01 * spread * spread;
   if (has_mouth_) find_surfaces();
   note_events(look_);
+}
+
+// Velocities by so many steps, by what the last look saw.
+void Simulation::set_back(double steps) {
+  for (Index i = 0; i < model().nodes; ++i) {
+    const Vec3 gain = steps * look_.gain(i);
+    state_.vx[at(i)] -= gain.x();
+    state_.vy[at(i)] -= gain.y();
+    state_.vz[at(i)] -= gain.z();
+  }
+}
+
+// Velocities are those of half a step back: of a step of the new length from now on.
+void Simulation::change_step() {
+  const Timeline& timeline = preparation_.timeline;
+  if (timeline.before() == timeline.after()) return;
+  look();
+  const Momentum old = half_step_momentum(model(), state_);
+  set_back(0.5 * (1 - timeline.before() / timeline.after()));
+  const Momentum now = half_step_momentum(model(), state_);
+  ledger_.book_supports({now.linear - old.linear, Vec3::Zero()});
 }
 
 // The nets that can enclose a target when their mouth closes.
@@ -189,6 +205,7 @@ void Simulation::close() {
   State after = lay_closing_threads(preparation_.phases[1].model, preparation_.assembly, state_);
   std::swap(state_, after);  // `after` now holds the state before
   enter_phase(1);
+  change_step();
   const Energies laid = look().energy();
   separate(preparation_.assembly, state_);
   const Momentum free = half_step_momentum(model(), state_);
@@ -245,9 +262,9 @@ void Simulation::check_health() {
 
 void Simulation::find_faults() {
   if (!scene_.time.allow_unstable)
-    check_contacts(preparation_, model(), state_);  // first: an impact too hard is what makes a node run away
-  if (stepper_->jump()) report_jump(preparation_, state_, *stepper_->jump());
-  if (!stepper_->healthy()) report_runaway(preparation_, state_, scene_.time.speed_limit);
+    check_contacts(preparation_, phase(), state_);  // first: an impact too hard is what makes a node run away
+  if (stepper_->jump()) report_jump(preparation_, phase(), state_, *stepper_->jump());
+  if (!stepper_->healthy()) report_runaway(preparation_, phase(), state_, scene_.time.speed_limit);
   if (!speeds_allowed(state_, scene_.time.speed_limit)) find_fault();
 }
 
@@ -270,7 +287,7 @@ void Simulation::find_fault() {
   const std::int64_t seen = state_.step;
   step_back();
   while (state_.step < seen && speeds_allowed(state_, scene_.time.speed_limit)) stepper_->advance(state_, 1);
-  report_runaway(preparation_, state_, scene_.time.speed_limit);
+  report_runaway(preparation_, phase(), state_, scene_.time.speed_limit);
 }
 
 const Look& Simulation::look() {
@@ -314,7 +331,7 @@ void Simulation::check_energy(const Look& now) {
   const double limit = scene_.time.residual_limit, residual = ledger_.energies(now.energy()).residual;
   if (scene_.output.ledger && !scene_.time.allow_unstable)
     overlaps_.blame(preparation_, state_, [&] {
-      cinch::check_energy(preparation_, model(), state_, residual, ledger_.scale(), limit);
+      cinch::check_energy(preparation_, phase(), state_, residual, ledger_.scale(), limit);
     });
   overlaps_.note_sound(now.step());
 }

@@ -58,11 +58,12 @@ class Simulation {
   std::string overlap_warning() const { return overlaps_.warning(preparation_); }
 
   std::int64_t step() const { return state_.step; }
-  double time() const { return static_cast<double>(state_.step) * preparation_.dt; }
+  double time() const { return preparation_.timeline.time_of(state_.step); }
   /// Its assembly knows all parts by name, but no longer how nodes and elements began.
   const Preparation& preparation() const { return preparation_; }
   const State& state() const { return state_; }
   State& state() { return state_; }
+  const Phase& phase() const { return preparation_.phases[phase_]; }
   const Model& model() const { return phase().model; }
   const Stepper& stepper() const { return *stepper_; }
   Stepper& stepper() { return *stepper_; }
@@ -75,13 +76,14 @@ class Simulation {
   void transfer(Archive& archive);
   void transfer_watch(Archive& archive);
   void transfer_seconds(Archive& archive);
-  const Phase& phase() const { return preparation_.phases[phase_]; }
   void find_start();
   void start();
   void find_surfaces();
   void enter_phase(std::size_t phase);
   void advance_with_threads_that_pay(std::int64_t stop);
   void close();
+  void change_step();
+  void set_back(double steps);
   void check_health();
   void find_faults();
   void note_pace();

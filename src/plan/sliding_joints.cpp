@@ -173,7 +173,7 @@ void SlidingJoints::evaluate(const NodeView& nodes, const StepPlan& plan, std::i
   const double held = plan.joint_steps * plan.dt;
   clear_standing();
   kernels_->sliding_joints(
-      arguments(nodes, plan, static_cast<double>(step) * plan.dt, held, 0.5 * (held - plan.dt), held),
+      arguments(nodes, plan, plan.timeline.time_of(step), held, 0.5 * (held - plan.dt), held),
       on_threads_.data(), on_hosts_.data());
   add_standing();
 }
@@ -183,7 +183,7 @@ void SlidingJoints::glance(const NodeView& nodes, const StepPlan& plan, std::int
   if (empty()) return;
   const int hold = plan.joints_hold(step), steps = hold > 0 ? hold : plan.joint_steps;
   const double since = (steps - 0.5 * (plan.joint_steps - 1)) * plan.dt;
-  kernels_->sliding_joints(arguments(nodes, plan, static_cast<double>(step) * plan.dt, 0, 0, since),
+  kernels_->sliding_joints(arguments(nodes, plan, plan.timeline.time_of(step), 0, 0, since),
                            on_threads_.data(), on_hosts_.data());
 }
 

@@ -8,9 +8,10 @@ const char* stage_name(StageId stage) {
   return names[static_cast<std::size_t>(stage)];
 }
 
-StepPlan plan_steps(const Scene& scene, const Model& model, double dt) {
+StepPlan plan_steps(const Scene& scene, const Model& model, double dt, const Timeline& timeline) {
   StepPlan plan;
   plan.dt = dt;
+  plan.timeline = timeline;
   plan.damped = model.damped;
   plan.ledger = scene.output.ledger;
   plan.gravity = model.has_gravity;

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "plan/timeline.hpp"
 #include "store/model.hpp"
 
 namespace cinch {
@@ -21,6 +22,7 @@ struct StageInfo {
 
 struct StepPlan {
   double dt = 0;                ///< s
+  Timeline timeline;            ///< of the whole run
   std::int64_t first_step = 0;  ///< of the phase
   int joint_steps = 1;          ///< for which forces of sliding joints hold
   bool damped = false, ledger = false, gravity = false, rings = false, balls = false, joints = false;
@@ -44,7 +46,7 @@ struct StepPlan {
   std::vector<StageInfo> stages(const Model& model) const;
 };
 
-StepPlan plan_steps(const Scene& scene, const Model& model, double dt);
+StepPlan plan_steps(const Scene& scene, const Model& model, double dt, const Timeline& timeline);
 
 const char* stage_name(StageId stage);
 

@@ -21,7 +21,8 @@ ResultModel Simulation::result_model() const {
   m.compiler = cinch::compiler;
   m.isa = kernels().isa;
   m.threads = threads_;
-  m.time_step = preparation_.dt;
+  m.time_step = preparation_.timeline.before();
+  m.closing_time_step = preparation_.timeline.after();
   const Model& whole = preparation_.whole();
   m.elements.reserve(whole.end_a.size());
   for (std::size_t e = 0; e < whole.end_a.size(); ++e) m.elements.push_back({whole.end_a[e], whole.end_b[e]});
@@ -44,7 +45,7 @@ ResultModel Simulation::result_model() const {
   for (const AssemblyBall& ball : assembly.balls) m.balls.push_back({ball.name, ball.center, ball.radius});
   for (const NamedNode& named : assembly.named) m.masses.push_back({named.name, named.node, named.mass});
   if (preparation_.closing_step >= 0)
-    m.closing_time = static_cast<double>(preparation_.closing_step) * preparation_.dt;
+    m.closing_time = preparation_.timeline.time_of(preparation_.closing_step);
   m.probes = probe_columns_;
   return m;
 }
@@ -75,7 +76,8 @@ Summary Simulation::summary() {
   s.isa = kernels().isa;
   s.threads = threads();
   s.steps = state_.step;
-  s.time_step = preparation_.dt;
+  s.time_step = preparation_.timeline.before();
+  s.closing_time_step = preparation_.timeline.after();
   s.joint_steps = preparation_.phases.back().plan.joint_steps;
   s.simulated_seconds = time();
   s.nodes = preparation_.whole().nodes;

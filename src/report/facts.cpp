@@ -97,9 +97,13 @@ std::vector<Fact> facts_of(const Digest& d) {
   if (s.angular_momentum_drift) facts.push_back(number("... angular", *s.angular_momentum_drift, "kg m²/s"));
   facts.push_back(number("largest penetration", s.max_penetration * 1e3, "mm"));
   facts.push_back(number("simulated", s.simulated_seconds, "s", grouped(s.steps) + " steps"));
-  facts.push_back(
-      number("step", s.time_step * 1e6, "µs",
-             s.joint_steps > 1 ? "sliding joints every " + std::to_string(s.joint_steps) + " steps" : ""));
+  const std::string held =
+      s.joint_steps > 1 ? "sliding joints every " + std::to_string(s.joint_steps) + " steps" : "";
+  if (s.time_step == s.closing_time_step) facts.push_back(number("step", s.time_step * 1e6, "µs", held));
+  else {
+    facts.push_back(number("step before closing", s.time_step * 1e6, "µs"));
+    facts.push_back(number("... from then on", s.closing_time_step * 1e6, "µs", held));
+  }
   facts.push_back(number("stable step", s.stable_step * 1e6, "µs", "limited by " + s.stable_step_limited_by));
   add_cost(d, s, facts);
   facts.push_back(words("model", sizes(s)));

@@ -18,7 +18,7 @@ Measured no_event(const Digest& d, const std::string& what) {
 }
 
 // A sample this near the closing time counts neither as before nor as after.
-double slack(const Digest& d) { return 1.5 * std::max(d.model.time_step, 1e-9); }
+double slack(const Digest& d) { return 1.5 * std::max({d.model.time_step, d.model.closing_time_step, 1e-9}); }
 
 Series velocity(const Digest& d, int mass, int axis) { return d.mass_velocity[at(mass)].component(axis); }
 

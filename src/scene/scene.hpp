@@ -180,8 +180,11 @@ struct Contact {
 };
 
 struct Closing {
-  std::optional<double> time;  ///< s; absent: nothing closes in this scene
+  std::optional<double> time;    ///< s; absent: nothing closes in this scene
+  std::optional<double> step;    ///< s, from then on; 0: automatic; absent: as TimeSpec's
+  std::optional<double> safety;  ///< of an automatic step from then on; absent: as TimeSpec's
   SourceRef source;
+  SourceRef step_source;
 };
 
 struct TimeSpec {

@@ -179,7 +179,9 @@ ErrorEstimate estimate_error(const Scene& scene, const ErrorRuns& runs,
                              const std::function<void(const std::string&)>& announce) {
   const auto each = static_cast<std::size_t>(std::max(runs.each, 1));
   Scene half = scene;
-  half.time.step = prepare(scene).dt / 2;
+  const Timeline timeline = prepare(scene).timeline;
+  half.time.step = timeline.before() / 2;
+  half.closing.step = timeline.after() / 2;
   // the longest first
   std::vector<Ensemble> ensembles{
       {"half the step, twice the elements in threads", finer_threads(half, 2), each},

@@ -23,10 +23,11 @@ RunTrack follow(const Scene& scene, int threads, double nudge, unsigned seed) {
   Simulation simulation(scene, threads);
   if (nudge > 0) move_nodes(simulation.state(), nudge, seed);
   RunTrack track;
-  const double dt = simulation.preparation().dt, interval = sample_interval(scene.output);
+  const Timeline& timeline = simulation.preparation().timeline;
+  const double interval = sample_interval(scene.output);
   const auto samples = static_cast<std::int64_t>(scene.time.end / interval * (1 + 1e-12));
   for (std::int64_t k = 0; k <= samples; ++k) {
-    simulation.advance_to(std::llround(static_cast<double>(k) * interval / dt));
+    simulation.advance_to(timeline.step_at(static_cast<double>(k) * interval));
     const Look& now = simulation.look();
     simulation.note_events(now);
     track.probes.push_back(simulation.probe_row(now));

@@ -58,12 +58,15 @@ bool is_small(const Scene& scene) {
 }
 
 void require_sound(const Preparation& p) {
-  bool finite = std::isfinite(p.dt) && p.dt > 0 && p.stable_step > 0 && p.end_step >= 0;
+  const double before = p.timeline.before(), after = p.timeline.after();
+  bool finite =
+      std::isfinite(before + after) && before > 0 && after > 0 && p.stable_step > 0 && p.end_step >= 0;
   for (const AssemblyNode& node : p.assembly.nodes)
     finite = finite && node.position.allFinite() && node.velocity.allFinite() && std::isfinite(node.mass);
   for (const AssemblyElement& e : p.assembly.elements)
     finite = finite && std::isfinite(e.stiffness) && std::isfinite(e.damping) && e.rest_length > 0;
-  require(finite, "a scene of values that are no numbers", std::to_string(p.dt));
+  require(finite, "a scene of values that are no numbers",
+          std::to_string(before) + ", " + std::to_string(after));
 }
 
 void require_same_again(const std::string& resolved) {

@@ -92,7 +92,9 @@ Oracle::Oracle(const cinch::Scene& scene, const cinch::Assembly& assembly)
 }
 
 void Oracle::start() {
-  n_ = contacts_seen_ = 0;
+  n_ = since_ = contacts_seen_ = 0;
+  time_ = 0;
+  dt_ = waits_ && closing_step_ == 0 ? scene_.closing.step.value_or(scene_.time.step) : scene_.time.step;
   dissipated_damper_ = dissipated_contact_ = 0;
   last_damper_.clear();
   activated_ = false;
@@ -130,9 +132,24 @@ void Oracle::activate() {
   v_.resize(assembly_.nodes.size());
   for (const cinch::Lay& lay : assembly_.lays) {
     at(x_, lay.node) = (1 - lay.s) * at(x_, lay.a) + lay.s * at(x_, lay.b) + lay.offset;
-    at(v_, lay.node) = (1 - lay.s) * at(v_, lay.a) + lay.s * at(v_, lay.b) + lay.jump;
+    at(v_, lay.node) = (1 - lay.s) * at(v_, lay.a) + lay.s * at(v_, lay.b);
+  }
+  if (n_ > 0) change_step(scene_.closing.step.value_or(dt_));
+  for (const cinch::Lay& lay : assembly_.lays) {
+    at(v_, lay.node) += lay.jump;
     if (at(assembly_.nodes, lay.node).support == Support::fixed) at(v_, lay.node).setZero();
   }
+}
+
+/// v_{n-1/2} to half a step of the new length before x_n.
+void Oracle::change_step(double dt) {
+  if (dt != dt_) {
+    const Evaluation now = evaluate(x_, v_);
+    for (Index i = 0; i < nodes_; ++i) at(v_, i) += (dt_ - dt) / 2 * acceleration(i, at(now.force, i));
+  }
+  time_ += static_cast<double>(n_ - since_) * dt_;
+  since_ = n_;
+  dt_ = dt;
 }
 
 bool Oracle::allowed(Index element, const std::vector<Index>& parts, Index host) const {
@@ -457,7 +474,7 @@ double Evaluation::damper_power() const {
 
 Result Oracle::result() const {
   const Evaluation now = evaluate(x_, v_);
-  Result r{static_cast<double>(n_) * dt_, x_, v_, ring_force_};
+  Result r{time_ + static_cast<double>(n_ - since_) * dt_, x_, v_, ring_force_};
   for (Index i = 0; i < nodes_; ++i) r.kinetic += 0.5 * mass(i) * at(v_, i).squaredNorm();
   r.elastic = now.elastic;
   r.contact = now.contact;

@@ -6,8 +6,9 @@
 // else.
 //
 // Scheme: v_{n+1/2} = v_{n-1/2} + dt a(x_n, v_{n-1/2}), x_{n+1} = x_n + dt v_{n+1/2}, v_{-1/2} = v_0 - dt/2
-// a(x_0, v_0). Not read from the scene: automatic steps (a step must be given), equilibrium (start from the
-// assembly's positions), the distance method and the broadphase margin.
+// a(x_0, v_0), and likewise where closing.step changes dt. Not read from the scene: automatic steps (a step
+// must be given), equilibrium (start from the assembly's positions), the distance method and the broadphase
+// margin.
 #pragma once
 #include <vector>
 
@@ -86,6 +87,7 @@ class Oracle {
 
   void set_extent();
   void activate();
+  void change_step(double dt);
   void integrate(const Evaluation& now);
   void book(const Evaluation& now);
   Vec3 acceleration(Index node, const Vec3& force) const;
@@ -115,7 +117,8 @@ class Oracle {
   bool waits_ = false;  // rings and closing threads come in at step closing_step_
   bool activated_ = false;
   long closing_step_ = 0;
-  long n_ = 0;                      // steps done
+  long n_ = 0, since_ = 0;          // steps done, now and when dt_ became what it is
+  double time_ = 0;                 // s, of that step
   Index nodes_ = 0, elements_ = 0;  // that exist now
   std::vector<std::vector<Candidate>> of_ring_, of_ball_;
 

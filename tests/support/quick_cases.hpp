@@ -104,6 +104,13 @@ inline Case held_capture() {
   return one;
 }
 
+// Closes at step 25 and has shorter steps from then on.
+inline Case capture_in_two_steps() {
+  Case one = held_capture();
+  one.sets.push_back({"closing.step_s", "2.5e-6"});
+  return one;
+}
+
 // The large capture in full size: hundreds of blocks, few steps.
 inline Case full_large_capture() {
   return {"large_capture", {{"closing.time_s", "0.00004"}, {"target.ball.center_m", "[0, 0, 3.0005]"}}, 60};

@@ -59,10 +59,10 @@ inline std::vector<Vec3> places(const Simulation& sim) {
 }
 
 inline void run_until(Simulation& sim, double time) {
-  sim.advance_to(std::llround(time / sim.preparation().dt));
+  sim.advance_to(sim.preparation().timeline.step_at(time));
 }
 
-inline double step_of(const Simulation& sim) { return sim.preparation().dt; }
+inline double step_of(const Simulation& sim) { return sim.preparation().timeline.after(); }
 
 inline double circle(double diameter) { return std::numbers::pi / 4 * diameter * diameter; }
 

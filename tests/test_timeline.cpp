@@ -1,0 +1,149 @@
+// Steps before the closing time and from it on: when they are, how long, and what changing them costs.
+#include <gtest/gtest.h>
+
+#include "app/schedule.hpp"
+#include "base/error.hpp"
+#include "input/case_reader.hpp"
+#include "plan/simulation.hpp"
+#include "support/quick_cases.hpp"
+
+namespace {
+
+using namespace cinch;
+using namespace cinch::test;
+
+TEST(Timeline, OneLengthOfStepIsAPlainProduct) {
+  for (const Timeline& timeline : {Timeline(1e-6 / 3), Timeline(1e-6 / 3, 1e-6 / 3, 1000)})
+    for (const std::int64_t step : {0, 1, 999, 1000, 1001, 123456789}) {
+      EXPECT_EQ(timeline.time_of(step), static_cast<double>(step) * (1e-6 / 3));
+      EXPECT_EQ(timeline.step_at(timeline.time_of(step)), step);
+    }
+}
+
+TEST(Timeline, GoesOnFromTheClosingStep) {
+  const Timeline timeline(0.5, 0.125, 4);
+  EXPECT_EQ(timeline.time_of(3), 1.5);
+  EXPECT_EQ(timeline.time_of(4), 2);
+  EXPECT_EQ(timeline.time_of(5), 2.125);
+  EXPECT_EQ(timeline.time_of(12), 3);
+  EXPECT_EQ(timeline.step_at(1.7), 3);
+  EXPECT_EQ(timeline.step_at(2), 4);
+  EXPECT_EQ(timeline.step_at(2.05), 4);
+  EXPECT_EQ(timeline.step_at(2.07), 5);
+  for (const std::int64_t step : {0, 3, 4, 5, 1000})
+    EXPECT_EQ(timeline.step_at(timeline.time_of(step)), step);
+  EXPECT_EQ(timeline.step_at(1e300), 4 + std::int64_t{9'000'000'000'000'000'000}) << "no overflow";
+}
+
+TEST(Timeline, WhatIsDueAtIntervalsIsSoAtTheNearestSteps) {
+  app::Schedule schedule(0.4, Timeline(0.5, 0.125, 2));
+  std::vector<std::int64_t> due;
+  for (std::int64_t step = 0; step <= 12; ++step)
+    if (schedule.due(step)) due.push_back(step);
+  EXPECT_EQ(due, (std::vector<std::int64_t>{0, 1, 2, 4, 7, 10}));  // 0, 0.5, 1, 1.25, 1.625, 2
+}
+
+Scene capture_with(std::vector<Override> sets) {
+  sets.insert(sets.begin(), {{"case.method", "sliding"}, {"time.step_s", "auto"}});
+  return read_case(case_file({"capture", {}, 0}), sets);
+}
+
+// Closing threads of 240 elements allow less than half of what the net does.
+TEST(Timeline, AutomaticStepsAreThoseOfWhatMovesThen) {
+  const Preparation p = prepare(capture_with({}));
+  ASSERT_EQ(p.phases.size(), 2u);
+  EXPECT_GT(p.phases[0].bound.step, 2 * p.phases[1].bound.step);
+  EXPECT_EQ(p.stable_step, p.phases[1].bound.step);
+  for (const Phase& phase : p.phases) {
+    EXPECT_LE(phase.plan.dt, 0.4 * phase.bound.step);
+    EXPECT_GT(phase.plan.dt, 0.399 * phase.bound.step);
+    EXPECT_NE(phase.limited_by.find("while " + phase.name), std::string::npos);
+  }
+  EXPECT_NEAR(p.timeline.time_of(p.closing_step), 1.5, p.timeline.before());
+  EXPECT_NEAR(p.timeline.time_of(p.end_step), 2, p.timeline.after());
+}
+
+TEST(Timeline, ACaseSaysHowLongStepsAreFromTheClosingTimeOn) {
+  const Preparation own = prepare(capture_with({}));
+  const auto steps_with = [](std::vector<Override> sets) {
+    const Timeline timeline = prepare(capture_with(std::move(sets))).timeline;
+    return std::pair(timeline.before(), timeline.after());
+  };
+  const double before = own.timeline.before(), bound = own.phases[1].bound.step;
+  const auto [first, twice] = steps_with({{"closing.safety", "0.8"}});
+  EXPECT_EQ(first, before);
+  EXPECT_LE(twice, 0.8 * bound);
+  EXPECT_GT(twice, 0.799 * bound);
+  EXPECT_EQ(steps_with({{"closing.step_s", "3e-6"}}), std::pair(before, 3e-6));
+  EXPECT_EQ(steps_with({{"time.step_s", "1e-6"}}), std::pair(1e-6, 1e-6));
+  EXPECT_EQ(steps_with({{"time.step_s", "1e-6"}, {"closing.step_s", "auto"}}),
+            std::pair(1e-6, own.timeline.after()));
+  EXPECT_EQ(steps_with({{"time.step_s", "1e-6"}, {"closing.step_s", "2e-6"}, {"closing.time_s", "0"}}),
+            std::pair(2e-6, 2e-6))
+      << "what closes at once has the steps of closing";
+}
+
+std::string refusal(std::vector<Override> sets) {
+  try {
+    prepare(capture_with(std::move(sets)));
+  } catch (const CaseError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+TEST(Timeline, AStepAboveTheStableOneIsRefusedByItsKey) {
+  const std::string closing = refusal({{"closing.step_s", "4e-6"}});
+  EXPECT_NE(closing.find("closing.step_s = 4e-06 s is above the stable step, limited by element 1 of "
+                         "thread.c_top (nodes 126 and 127) while closing; the largest step that works is 3."),
+            std::string::npos)
+      << closing;
+  const std::string flight = refusal({{"time.step_s", "9e-6"}, {"closing.step_s", "auto"}});
+  EXPECT_NE(flight.find("time.step_s = 9e-06 s is above the stable step"), std::string::npos) << flight;
+  EXPECT_NE(flight.find("while deployment"), std::string::npos) << flight;
+  const std::string both = refusal({{"time.step_s", "4e-6"}});
+  EXPECT_NE(both.find("time.step_s = 4e-06 s is above the stable step"), std::string::npos)
+      << "the key that the step comes from: " << both;
+}
+
+TEST(Timeline, LooksFramesAndEventsTellTheTime) {
+  Simulation simulation(read(capture_in_two_steps()), 1);
+  const double closing = 25 * 4e-6, later = closing + 3975 * 2.5e-6;
+  simulation.advance_to(4000);
+  EXPECT_DOUBLE_EQ(simulation.time(), later);
+  EXPECT_EQ(simulation.look().time(), simulation.time());
+  EXPECT_EQ(simulation.frame().time, simulation.time());
+  EXPECT_DOUBLE_EQ(*simulation.result_model().closing_time, closing);
+  const Summary summary = simulation.summary();
+  EXPECT_EQ(summary.simulated_seconds, simulation.time());
+  int separations = 0, touches = 0;
+  for (const Event& event : summary.events) {
+    if (event.kind == "separation") {
+      EXPECT_DOUBLE_EQ(event.time, closing);
+      ++separations;
+    }
+    if (event.kind != "target_contact") continue;
+    EXPECT_GE(event.time, 0);
+    EXPECT_LT(event.time, later);
+    ++touches;
+  }
+  EXPECT_EQ(separations, 4);
+  EXPECT_EQ(touches, 1);
+}
+
+// Gravity and the ball push between the two instants half a step back, too.
+TEST(Timeline, MomentumIsKeptWhereStepsChange) {
+  for (const char* step : {"1e-6", "3.7e-6"}) {
+    SCOPED_TRACE(step);
+    Case one = sliding_capture();
+    one.sets.insert(one.sets.end(),
+                    {{"gravity.acceleration_m_s2", "[0, 0, -9.81]"}, {"closing.step_s", step}});
+    Simulation simulation(read(one), 1);
+    simulation.advance_to(simulation.preparation().timeline.step_at(0.002));
+    const Summary summary = simulation.summary();
+    EXPECT_NE(summary.time_step, summary.closing_time_step);
+    EXPECT_LT(summary.linear_momentum_drift, 1e-12);
+  }
+}
+
+}  // namespace
