@@ -185,12 +185,16 @@ ProblemResult study(const Problem& problem) {
 }
 
 void print_best(const ProblemResult& result) {
-  for (const double wanted : wanted_errors) {
-    const RunResult* best = best_within(result, wanted);
-    if (best == nullptr) std::printf("  within %4.1f %%: none\n", 100 * wanted);
+  const auto print = [](double wanted, const char* besides, const RunResult* best) {
+    std::printf("  within %4.1f %%%s: ", 100 * wanted, besides);
+    if (best == nullptr) std::printf("none\n");
     else
-      std::printf("  within %4.1f %%: %s, %d elements: %.3g s a simulated second\n", 100 * wanted,
-                  best->setting.series().c_str(), best->setting.elements, best->seconds);
+      std::printf("%s, %d elements: %.3g s a simulated second\n", best->setting.series().c_str(),
+                  best->setting.elements, best->seconds);
+  };
+  for (const double wanted : wanted_errors) {
+    print(wanted, "", best_within(result, wanted));
+    print(wanted, ", residual within 1e-4", best_within(result, wanted, small_residual));
   }
   for (const std::string& series : series_of(result))
     if (const double order = observed_order(result, series); std::isfinite(order))

@@ -35,11 +35,15 @@ Json problem_json(const ProblemResult& result) {
                {"reference_error", result.reference_error},
                {"runs", Json::array()},
                {"best", Json::array()},
+               {"best_of_small_residual", Json::array()},
                {"orders", Json::object()}};
   for (const RunResult& run : result.runs) json["runs"].push_back(run_json(run));
+  const auto named = [&](double wanted, const RunResult* best) {
+    return Json{{"error", wanted}, {"run", best ? Json(best - result.runs.data()) : Json()}};
+  };
   for (const double wanted : wanted_errors) {
-    const RunResult* best = best_within(result, wanted);
-    json["best"].push_back({{"error", wanted}, {"run", best ? Json(best - result.runs.data()) : Json()}});
+    json["best"].push_back(named(wanted, best_within(result, wanted)));
+    json["best_of_small_residual"].push_back(named(wanted, best_within(result, wanted, small_residual)));
   }
   for (const std::string& series : series_of(result))
     if (const double order = observed_order(result, series); std::isfinite(order))
@@ -64,10 +68,11 @@ double error_of_mean(double from_the_mean, std::size_t count) {
   return from_the_mean / std::sqrt(static_cast<double>(std::max<std::size_t>(count, 2) - 1));
 }
 
-const RunResult* best_within(const ProblemResult& result, double error) {
+const RunResult* best_within(const ProblemResult& result, double error, double residual) {
   const RunResult* best = nullptr;
   for (const RunResult& run : result.runs)
-    if (run.good() && run.error() + run.uncertainty() + result.reference_error <= error &&
+    if (run.good() && run.residual <= residual &&
+        run.error() + run.uncertainty() + result.reference_error <= error &&
         (best == nullptr || run.seconds < best->seconds))
       best = &run;
   return best;

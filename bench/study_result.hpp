@@ -1,6 +1,7 @@
 // What a study finds: runs with error and run time, which are the best, how fast errors fall.
 #pragma once
 #include <filesystem>
+#include <limits>
 
 #include "problem/problem.hpp"
 
@@ -29,8 +30,10 @@ struct ProblemResult {
 double error_of_mean(double from_the_mean, std::size_t count);
 
 /// The run that takes least time among those within `error` for certain, null where there is none: its error,
-/// what chance may add and what the reference may be off by come to no more.
-const RunResult* best_within(const ProblemResult& result, double error);
+/// what chance may add and what the reference may be off by come to no more, and its energy residual to no
+/// more than `residual`.
+const RunResult* best_within(const ProblemResult& result, double error,
+                             double residual = std::numeric_limits<double>::infinity());
 
 /// Order of a series: slope of log error over log element length, by least squares, from the coarsest run on
 /// as far as errors fall; not a number for fewer than three such runs, or where means of chaotic runs are
@@ -45,5 +48,7 @@ void write(const std::vector<ProblemResult>& results, const std::filesystem::pat
 
 /// The errors for which the best setting is named.
 inline constexpr double wanted_errors[] = {0.1, 0.03, 0.01, 0.003};
+/// The energy residual up to which it is named once more.
+inline constexpr double small_residual = 1e-4;
 
 }  // namespace cinch::study

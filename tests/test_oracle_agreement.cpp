@@ -326,6 +326,16 @@ TEST(OracleAgreementFromStart, CaptureWithOtherStepsFromTheClosingTimeOn) {
   }
 }
 
+// Until they are laid, threads of 31 and 45 elements load the net evenly, which their nodes would not. Where
+// such threads meet, split masses differ by half an element, and launchers recoil.
+TEST(OracleAgreementFromStart, CaptureWithFewElementsAcrossClosing) {
+  Sets sets = near_capture("0.00003");
+  for (const char* thread : {"c_top", "c_right", "c_bottom"})
+    sets.push_back({std::string("thread.") + thread + ".elements", "31"});
+  sets.push_back({"thread.c_left.elements", "45"});
+  compare_from_start(read("capture", sets), 60);
+}
+
 // Launchers reach the ball as spheres from the start on, split masses from their separation on.
 TEST(OracleAgreementFromStart, CaptureWithMassesAsSpheres) {
   Scene scene = read("capture", near_capture("0.00003"));

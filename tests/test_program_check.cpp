@@ -163,36 +163,6 @@ TEST_F(Doubtful, AClosingThreadFarTooShortIsToldOf) {
   EXPECT_TRUE(has(err(), "warning: closing thread 'c'")) << err();
 }
 
-TEST_F(Doubtful, AClosingThreadThatHangsUnevenlyOnItsNetIsToldOf) {
-  const std::string capture = std::string(CINCH_SOURCE_DIR) + "/cases/capture.toml";
-  const auto with = [&](const std::string& elements) {
-    return run({"check", capture, "--set", "case.method=sliding", "--set", "time.step_s=auto", "--set",
-                "thread.c_top.elements=" + elements});
-  };
-  for (const char* even : {"10", "12", "18", "24", "36"}) {
-    EXPECT_EQ(with(even), 0) << err();
-    EXPECT_FALSE(has(err(), "hangs unevenly")) << even << err();
-  }
-  for (const char* uneven : {"4", "6", "8"}) {
-    EXPECT_EQ(with(uneven), 0) << err();
-    EXPECT_TRUE(
-        has(err(), std::string("warning: closing thread 'c_top' of ") + uneven + " elements hangs unevenly"))
-        << err();
-  }
-  with("8");
-  EXPECT_TRUE(has(err(), "until it is laid: 0.5 to 1 of its nodes on a knot")) << err();
-  // long towing threads load the corners more, whatever the elements
-  std::vector<std::string> towed = {"check", capture,           "--set", "case.method=sliding",
-                                    "--set", "time.step_s=auto"};
-  for (const char* m : {"m1", "m2", "m3", "m4"})
-    towed.insert(towed.end(), {"--set", std::string("mechanism.") + m + ".towing_length_m=0.3"});
-  for (const char* t : {"c_top", "c_right", "c_bottom", "c_left"})
-    towed.insert(towed.end(), {"--set", std::string("thread.") + t + ".elements=16", "--set",
-                               std::string("thread.") + t + ".length_m=1.6"});
-  EXPECT_EQ(run(towed), 0) << err();
-  EXPECT_EQ(err(), "");
-}
-
 TEST_F(Doubtful, AnAutomaticJointThatNoThreadPassesIsToldOf) {
   std::string text = with("joint = \"contact\"\n", "");
   text.replace(text.find("0.0069"), 6, "0.0200");

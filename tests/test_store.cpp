@@ -119,6 +119,75 @@ TEST(Masses, BeforeTheClosingTimeByHand) {
   EXPECT_EQ(a.nodes[at(a.node_of("mechanism.m1.a"))].mass_before, 0);
 }
 
+Scene capture_with_threads_of(int elements) {
+  Scene scene = read("capture");
+  for (Thread& thread : scene.threads) thread.elements = elements;
+  return scene;
+}
+
+// An element between two towing threads' ends has no node that could take up what lies between.
+TEST(Masses, BeforeTheClosingTimeThreadsOfAnyNumberOfElementsLoadANetAlike) {
+  const Assembly fine = assemble(read("capture"));
+  for (const LaidThread& laid : fine.laid) EXPECT_TRUE(laid.excess.empty());
+  for (const int elements : {1, 2, 3, 5, 7, 8, 11, 12, 13, 36, 100}) {
+    SCOPED_TRACE(elements);
+    const Assembly a = assemble(capture_with_threads_of(elements));
+    for (Index i = 0; elements > 1 && i < a.nodes_before; ++i)
+      EXPECT_NEAR(a.nodes[at(i)].mass_before, fine.nodes[at(i)].mass_before, 1e-14);
+    ASSERT_EQ(a.laid.size(), 4u);
+    for (const LaidThread& laid : a.laid) {
+      EXPECT_NEAR(laid.mass, 240 * closing_element, 1e-13);
+      EXPECT_EQ(laid.excess.empty(), elements == 1 || elements % 12 == 0);
+      double sum = 0;
+      for (const Load& load : laid.excess) sum += load.mass;
+      EXPECT_NEAR(sum, 0, 1e-17);
+    }
+  }
+}
+
+// Ends on the net, and what lies beyond the carrier.
+TEST(Masses, BeforeTheClosingTimeWithOverhangsAndSharedNodes) {
+  const auto assembled = [](const std::string& rest) {
+    return assemble(parse_case(R"(schema = 1
+[time]
+end_s = 1
+[closing]
+time_s = 0.5
+[material.m]
+youngs_modulus_Pa = 1e9
+density_kg_m3 = 1000
+[net.main]
+material = "m"
+diameter_m = 0.002
+size_m = [0.4, 0.4]
+mesh_m = 0.1
+[thread.c]
+material = "m"
+diameter_m = 0.002
+along = ["net.main.top"]
+)" + rest,
+                               "overhang.toml"));
+  };
+  const double mass_per_m = 1000 * std::numbers::pi * 1e-6;
+  const auto weighs = [&](const Assembly& a, const char* place) {
+    const AssemblyNode& node = a.nodes[at(a.node_of(std::string("net.main.") + place))];
+    const bool corner = std::string(place).starts_with("top_");
+    return node.mass_before / mass_per_m - (corner ? 0.1 : 0.15);
+  };
+  const Assembly over = assembled("elements = 3\noverhang_start_m = 0.03\noverhang_end_m = 0.07\n");
+  EXPECT_NEAR(weighs(over, "top_left"), 0.05 + 0.03, 1e-12);
+  EXPECT_NEAR(weighs(over, "knot.2.4"), 0.1, 1e-12);
+  EXPECT_NEAR(weighs(over, "top_right"), 0.05 + 0.07, 1e-12);
+  const Assembly shared = assembled(R"(elements = 2
+start = { on = "net.main.top_left" }
+end = { on = "net.main.top_right" }
+)");
+  EXPECT_NEAR(weighs(shared, "top_left"), 0.05, 1e-12);
+  EXPECT_NEAR(weighs(shared, "knot.1.4"), 0.1, 1e-12);
+  EXPECT_NEAR(shared.nodes[at(shared.node_of("net.main.top_left"))].mass / mass_per_m, 0.1 + 0.1, 1e-12)
+      << "half an element from the closing time on";
+}
+
 TEST(Masses, OfAThreadAndARing) {
   const Assembly a = assemble(read("ring_pull"));
   // 970 kg/m^3 pi/4 (2 mm)^2 5 mm

@@ -28,6 +28,22 @@ TEST(StudyResult, WithinAnErrorForCertainCountsChanceAndReference) {
   EXPECT_EQ(best_within(result, 0.01), nullptr);
 }
 
+TEST(StudyResult, TheBestMayBeAskedToKeepItsEnergy) {
+  const Problem problem;
+  ProblemResult result{&problem, 0, {run(6, 0.005, 1), run(8, 0.005, 2), run(12, 0.005, 3)}};
+  result.runs[0].residual = 2e-4, result.runs[1].residual = 1e-4;
+  EXPECT_EQ(best_within(result, 0.01), &result.runs[0]);
+  EXPECT_EQ(best_within(result, 0.01, small_residual), &result.runs[1]);
+  EXPECT_EQ(best_within(result, 0.001, small_residual), nullptr);
+}
+
+TEST(StudyResult, ASeriesTellsBothSteps) {
+  Setting setting{"sliding", 8, 0, 0.4, false, 6, 128, 0.8};
+  EXPECT_EQ(setting.series(), "sliding, 0.4, then 0.8 of the stable step, forces held for 6 steps");
+  setting.closing_fraction = 0;
+  EXPECT_EQ(setting.series(), "sliding, 0.4 of the stable step, forces held for 6 steps");
+}
+
 TEST(StudyResult, AMeanIsNearerThanWhatItIsOf) {
   EXPECT_DOUBLE_EQ(error_of_mean(0.3, 10), 0.1);
   EXPECT_EQ(error_of_mean(0.3, 2), 0.3);

@@ -24,7 +24,11 @@ Scene scene_of(const std::string& name, const Setting& setting, const std::funct
   scene.probes.clear();
   scene.time.joint_steps = setting.joint_steps;
   scene.time.step = setting.step;
-  if (!(setting.step > 0)) scene.time.step = setting.fraction * prepare(scene).stable_step;
+  if (setting.step > 0) return scene;
+  const std::vector<Phase> phases = prepare(scene).phases;
+  const double later = setting.closing_fraction > 0 ? setting.closing_fraction : setting.fraction;
+  scene.time.step = setting.fraction * phases.front().bound.step;
+  scene.closing.step = later * phases.back().bound.step;
   return scene;
 }
 
@@ -36,6 +40,10 @@ void add_papers_step(std::vector<Setting>& to, const std::string& method, const 
                      const std::vector<int>& papers) {
   for (const int n : elements)
     to.push_back({method, n, 1e-6, 0, std::count(papers.begin(), papers.end(), n) > 0});
+}
+
+void set_closing_fraction(std::vector<Setting>& settings, double fraction) {
+  for (Setting& setting : settings) setting.closing_fraction = fraction;
 }
 
 void set_runs(std::vector<Setting>& settings, int runs) {
@@ -61,8 +69,10 @@ void append(std::vector<double>& to, const Vec3& place) {
 }
 
 std::string Setting::series() const {
-  char words[40];
+  char words[80];
   if (step > 0) std::snprintf(words, sizeof words, ", step %g s", step);
+  else if (closing_fraction > 0)
+    std::snprintf(words, sizeof words, ", %g, then %g of the stable step", fraction, closing_fraction);
   else std::snprintf(words, sizeof words, ", %g of the stable step", fraction);
   const std::string held = joint_steps > 1 ? " for " + std::to_string(joint_steps) + " steps" : "";
   return method + words + (joint_steps != 1 ? ", forces held" + held : "");

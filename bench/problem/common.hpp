@@ -17,6 +17,8 @@ void add_series(std::vector<Setting>& to, const std::string& method, const std::
 void add_papers_step(std::vector<Setting>& to, const std::string& method, const std::vector<int>& elements,
                      const std::vector<int>& papers);
 
+/// From the closing time on.
+void set_closing_fraction(std::vector<Setting>& settings, double fraction);
 /// Of each setting.
 void set_runs(std::vector<Setting>& settings, int runs);
 

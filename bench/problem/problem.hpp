@@ -12,14 +12,15 @@ namespace cinch::study {
 
 /// One way to compute a problem.
 struct Setting {
-  std::string method;          ///< "sliding", "contact", "contact, paper's rules", or "threads": no rings
-  int elements = 0;            ///< of each thread that slides
-  double step = 0;             ///< s; 0: `fraction` of the stable step
-  double fraction = 0;         ///< of the stable step
-  bool papers = false;         ///< the paper's own choice
-  int joint_steps = 1;         ///< for which forces of sliding joints hold; 0: automatic
-  int runs = 1;                ///< whose mean counts, where a problem is chaotic
-  std::string series() const;  ///< what it shares with others of one curve
+  std::string method;           ///< "sliding", "contact", "contact, paper's rules", or "threads": no rings
+  int elements = 0;             ///< of each thread that slides
+  double step = 0;              ///< s; 0: `fraction` of the stable step
+  double fraction = 0;          ///< of the stable step
+  bool papers = false;          ///< the paper's own choice
+  int joint_steps = 1;          ///< for which forces of sliding joints hold; 0: automatic
+  int runs = 1;                 ///< whose mean counts, where a problem is chaotic
+  double closing_fraction = 0;  ///< of the stable step, from the closing time on; 0: as before
+  std::string series() const;   ///< what it shares with others of one curve
 };
 
 /// What is compared, sample after sample; as many numbers in each.

@@ -55,7 +55,7 @@ const Thread& thread_of(const Scene& scene, const std::string& name) {
 }
 
 void warn_of_short_threads(const Scene& scene, const Assembly& assembly, std::vector<std::string>& warnings) {
-  for (const LaidLength& laid : assembly.laid) {
+  for (const LaidThread& laid : assembly.laid) {
     if (laid.strain() <= great_laid_strain) continue;
     const std::string& name = assembly.parts[at(laid.part)].name;
     const Thread& thread = thread_of(scene, name);
@@ -65,57 +65,6 @@ void warn_of_short_threads(const Scene& scene, const Assembly& assembly, std::ve
                            " (along " + path_of(thread) + ")" +
                            words(": it begins with %.3g %% of strain, allowed without this warning: %.3g %%",
                                  100 * laid.strain(), 100 * great_laid_strain)));
-  }
-}
-
-std::vector<bool> nodes_of_nets(const Assembly& assembly) {
-  std::vector<bool> in_net(at(assembly.node_count()), false);
-  for (const Part& part : assembly.parts)
-    if (part.kind == PartKind::net)
-      for (const Index node : part.nodes) in_net[at(node)] = true;
-  return in_net;
-}
-
-// How many nodes of a closing thread hang on each knot between knots until it is laid. Not on those at a
-// net's corners: meshes and towing threads differ in length.
-std::vector<double> loads_of_knots(const Assembly& assembly, const Part& thread,
-                                   const std::vector<bool>& in_net) {
-  std::vector<std::pair<Index, double>> loads;  // in order along the thread
-  const auto add = [&](Index knot, double load) {
-    const auto found = std::find_if(loads.rbegin(), loads.rend(), [&](auto& l) { return l.first == knot; });
-    if (found == loads.rend()) loads.emplace_back(knot, load);
-    else found->second += load;
-  };
-  for (std::size_t k = 1; k + 1 < thread.nodes.size(); ++k) {
-    const Lay& lay = assembly.lays[at(thread.nodes[k] - assembly.nodes_before)];
-    add(lay.a, 1 - lay.s);
-    add(lay.b, lay.s);
-  }
-  std::vector<double> inner;
-  for (std::size_t i = 1; i + 1 < loads.size(); ++i)
-    if (in_net[at(loads[i - 1].first)] && in_net[at(loads[i].first)] && in_net[at(loads[i + 1].first)])
-      inner.push_back(loads[i].second);
-  return inner;
-}
-
-// A net flies otherwise where one knot is heavier than the next: bench/study, capture.
-void warn_of_uneven_loads(const Scene& scene, const Assembly& assembly, std::vector<std::string>& warnings) {
-  if (assembly.laid.empty()) return;
-  const std::vector<bool> in_net = nodes_of_nets(assembly);
-  for (const LaidLength& laid : assembly.laid) {
-    const Part& part = assembly.parts[at(laid.part)];
-    const std::vector<double> loads = loads_of_knots(assembly, part, in_net);
-    if (loads.empty()) continue;
-    const auto [least, most] = std::minmax_element(loads.begin(), loads.end());
-    if (*least >= even_load * *most) continue;
-    const Thread& thread = thread_of(scene, part.name);
-    warnings.push_back(warning(thread.source, "closing thread '" + part.name + "' of " +
-                                                  std::to_string(part.elements) +
-                                                  " elements hangs unevenly on " + path_of(thread) +
-                                                  words(" until it is laid: %.3g to %.3g of its nodes on a "
-                                                        "knot; elements as long as a mesh, or a whole "
-                                                        "part of it, load knots alike",
-                                                        *least, *most)));
   }
 }
 
@@ -134,7 +83,6 @@ std::vector<std::string> case_warnings(const Scene& scene, const Preparation& pr
   std::vector<std::string> warnings;
   warn_of_late_closing(scene, preparation, warnings);
   warn_of_short_threads(scene, preparation.assembly, warnings);
-  warn_of_uneven_loads(scene, preparation.assembly, warnings);
   warn_of_missed_rings(scene, preparation.assembly, warnings);
   return warnings;
 }

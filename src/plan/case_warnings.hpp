@@ -10,12 +10,8 @@ namespace cinch {
 /// A closing thread that is laid with more strain than this was hardly meant to be so short.
 inline constexpr double great_laid_strain = 0.05;
 
-/// Knots of a net that closing threads hang on before they are laid bear no less than this share of what
-/// others do.
-inline constexpr double even_load = 0.6;
-
 /// Each with its place in the case file: rings with automatic joints that no thread passes through, closing
-/// threads far too short for what they are laid along or uneven on its knots, a closing time behind the end.
+/// threads far too short for what they are laid along, a closing time behind the end.
 std::vector<std::string> case_warnings(const Scene& scene, const Preparation& preparation);
 
 }  // namespace cinch

@@ -13,6 +13,20 @@ void add_velocity(State& state, Index node, const Vec3& jump) {
   state.vz[at(node)] += jump.z();
 }
 
+// What has moved took its momentum along.
+void keep_momentum(const Model& after, const Assembly& assembly, State& state) {
+  for (const LaidThread& laid : assembly.laid) {
+    if (laid.excess.empty()) continue;
+    Vec3 momentum = Vec3::Zero();
+    for (const Load& load : laid.excess)
+      momentum += load.mass * Vec3(state.vx[at(load.node)], state.vy[at(load.node)], state.vz[at(load.node)]);
+    const std::vector<Index> nodes = assembly.laid_nodes(laid);
+    double mass = 0;
+    for (const Index node : nodes) mass += after.mass[at(node)];
+    for (const Index node : nodes) add_velocity(state, node, momentum / mass);
+  }
+}
+
 }  // namespace
 
 State lay_closing_threads(const Model& after, const Assembly& assembly, const State& before) {
@@ -30,6 +44,7 @@ State lay_closing_threads(const Model& after, const Assembly& assembly, const St
     state.y[at(lay.node)] += lay.offset.y();
     state.z[at(lay.node)] += lay.offset.z();
   }
+  keep_momentum(after, assembly, state);
   state.balls = before.balls;  // what targets and rings have felt so far goes on
   if (!before.rings.empty()) state.rings = before.rings;
   return state;

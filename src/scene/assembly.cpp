@@ -2,11 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <numbers>
 #include <numeric>
 
 #include "base/error.hpp"
 #include "base/machine.hpp"
+#include "scene/closing_loads.hpp"
 #include "scene/extent.hpp"
 #include "scene/fault.hpp"
 #include "scene/net_pattern.hpp"
@@ -52,7 +54,7 @@ class Assembler {
     for (const Ring& ring : scene_.rings) add_ring(ring);
     thread_rings(scene_, carriers_, out_);
     for (const BallTarget& ball : scene_.targets) add_ball(ball);
-    superpose_closing_masses();
+    superpose_closing_masses(carriers_, out_);
     balance_separations();
     return std::move(out_);
   }
@@ -192,9 +194,10 @@ class Assembler {
     return prefix + "node." + std::to_string(k);
   }
 
-  // Nodes, masses and elements of a thread whose nodes lie at place(k) with velocity(k), k = 0 .. elements.
+  // Nodes, masses and elements of a thread whose nodes add(k) adds, k = 0 .. elements. Returns an element's
+  // mass.
   template <class Add>
-  void add_thread_nodes(const Thread& thread, double rest, Add add) {
+  double add_thread_nodes(const Thread& thread, double rest, Add add) {
     const Index part = begin_part(PartKind::thread, thread.name, thread.closing());
     std::vector<Index> nodes;
     for (int k = 0; k <= thread.elements; ++k) {
@@ -214,6 +217,7 @@ class Assembler {
       if (const NodeSpec* spec = spec_of(thread, k))
         apply(*spec, nodes[static_cast<std::size_t>(k)], node_name(thread, k), part);
     out_.parts[static_cast<std::size_t>(part)].nodes = std::move(nodes);
+    return element.mass;
   }
 
   void add_thread(const Thread& thread) {
@@ -369,8 +373,7 @@ class Assembler {
     const double length = thread.length > 0 ? thread.length : laid;
     const auto part = static_cast<Index>(out_.parts.size());
     carriers_[part] = {carrier, thread.overhang_start, laid};
-    out_.laid.push_back({part, length, laid});
-    add_thread_nodes(thread, length / thread.elements, [&](int k) {
+    const double element_mass = add_thread_nodes(thread, length / thread.elements, [&](int k) {
       Lay lay = lay_at(carrier, thread, laid * k / thread.elements);
       const AssemblyNode &a = node(lay.a), &b = node(lay.b);
       lay.node = add_node((1 - lay.s) * a.position + lay.s * b.position + lay.offset,
@@ -378,6 +381,7 @@ class Assembler {
       out_.lays.push_back(lay);
       return lay.node;
     });
+    out_.laid.push_back({part, length, laid, thread.elements * element_mass});
   }
 
   Index host_element(const Ring& ring) {
@@ -477,17 +481,6 @@ class Assembler {
     throw CaseError("there is no node '" + reference + "' (or it comes later in the case file)");
   }
 
-  // Before the closing time the closing threads and split masses are mass on their carriers.
-  void superpose_closing_masses() {
-    for (AssemblyNode& n : out_.nodes) n.mass_before = n.mass;
-    for (const Lay& lay : out_.lays) {
-      const double mass = node(lay.node).mass;
-      node(lay.a).mass_before += (1 - lay.s) * mass;
-      if (lay.s > 0) node(lay.b).mass_before += lay.s * mass;
-      node(lay.node).mass_before = 0;
-    }
-  }
-
   // Unequal split masses push the launcher; with equal ones it keeps its velocity (paper Sec. 2).
   void balance_separations() {
     for (const Mechanism& mechanism : scene_.mechanisms) {
@@ -521,6 +514,14 @@ Index Assembly::node_in_net(const Part& part, const std::string& place) const {
   if (shape == net_shapes.end()) return -1;
   const Index at = NetPattern(shape->second).place(place);
   return at < 0 ? -1 : part.nodes.front() + at;
+}
+
+std::vector<Index> Assembly::laid_nodes(const LaidThread& thread) const {
+  const std::vector<Index>& all = parts[static_cast<std::size_t>(thread.part)].nodes;
+  std::vector<Index> found;
+  std::copy_if(all.begin() + 1, all.end() - 1, std::back_inserter(found),
+               [&](Index node) { return node >= nodes_before; });
+  return found;
 }
 
 const Part& Assembly::part_of(Index element) const {

@@ -91,10 +91,18 @@ struct AssemblyRing {
   std::optional<Miss> missed{};         ///< of an automatic joint that no thread passes through
 };
 
-/// How long a closing thread is, and what it is laid over.
-struct LaidLength {
+/// A mass on a node.
+struct Load {
+  Index node = 0;
+  double mass = 0;  ///< kg
+};
+
+/// How long a closing thread is, what it is laid over, and what it weighs on until then.
+struct LaidThread {
   Index part = 0;
   double length = 0, covered = 0;  ///< unstretched, m; with its overhangs
+  double mass = 0;                 ///< kg, of its elements
+  std::vector<Load> excess{};  ///< of mass_before over its nodes' masses where they lie; sums up to nothing
   double strain() const { return covered / length - 1; }
 };
 
@@ -129,7 +137,7 @@ struct Assembly {
   LargeVector<AssemblyElement> elements;        ///< what models are built from; see forget_start()
   Index nodes_before = 0, elements_before = 0;  ///< what exists before the closing time
   std::vector<Lay> lays;                        ///< one for each node from nodes_before on, in order
-  std::vector<LaidLength> laid;                 ///< closing threads
+  std::vector<LaidThread> laid;                 ///< closing threads
   std::vector<Recoil> recoils;                  ///< launchers, where not zero
   std::vector<AssemblyRing> rings;
   std::vector<AssemblySphere> spheres;
@@ -139,6 +147,8 @@ struct Assembly {
 
   bool has_closing() const { return !lays.empty(); }
   Index node_count() const { return nodes_before + static_cast<Index>(lays.size()); }
+  /// Nodes between the ends of a closing thread that exist from the closing time on.
+  std::vector<Index> laid_nodes(const LaidThread& thread) const;
   /// The part that an element belongs to.
   const Part& part_of(Index element) const;
   /// Frees nodes and elements, which models and state hold from the start on: two fifths of the memory of a

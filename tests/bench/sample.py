@@ -158,7 +158,8 @@ def of_study() -> dict[str, Any]:
                  "papers_choice": False, "runs": 1, "failure": "error: at t = 1 s <something> went wrong"})
     best = [{"error": 0.1, "run": 3}, {"error": 0.0001, "run": None}]
     problem = {"name": "pull", "title": "A pull (Sec. 5.1)", "measure": "distance", "reference_error": 0.0004,
-               "runs": runs, "best": best, "orders": {"contact, step 1e-06 s": 1.0}}
+               "runs": runs, "best": best, "best_of_small_residual": best[1:],
+               "orders": {"contact, step 1e-06 s": 1.0}}
     return {"version": "0.1.0", "commit": "dddddddddddd", "compiler": "GNU", "isa": "v4", "machine": "desk",
             "cpu": "Example CPU 2-Core", "problems": [problem]}
 

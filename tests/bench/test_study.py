@@ -78,9 +78,10 @@ class Study(unittest.TestCase):
         (run,) = self.runs("capture")
         self.assertEqual(run["runs"], 3)
         self.assertIsNone(run["errors"]["contact_time"], "there is none before 0.2 s")
-        # launches 1e-5 apart: their flights differ by some of that, and by less than the error
+        # launches up to half a per cent apart: so early in their flights they differ by far less, and means of the
+        # same launches in steps of another length by less still
         self.assertTrue(0 < run["errors"]["one_run_from_the_mean"] < 1e-3)
-        self.assertLess(run["errors"]["one_run_from_the_mean"], run["errors"]["error"])
+        self.assertLess(run["errors"]["error"], run["errors"]["one_run_from_the_mean"])
 
     def test_the_best_is_the_fastest_within_the_error_for_certain(self) -> None:
         for problem in self.problems.values():
@@ -88,10 +89,12 @@ class Study(unittest.TestCase):
                 within = [run for run in self.runs(problem["name"])
                           if run["errors"]["error"] + run["errors"].get("uncertainty", 0)
                           + problem["reference_error"] <= best["error"]]
-                runs = problem["runs"]
-                found = runs[best["run"]] if best["run"] is not None else None
-                self.assertEqual(found, min(within, key=lambda run: run["seconds_per_simulated_second"], default=None))
-                self.assertEqual(found, precision.best_within(problem, best["error"]))
+                accounted = [run for run in within if run["energy_residual"] <= 1e-4]
+                for name, among, most in (("best", within, math.inf), ("best_of_small_residual", accounted, 1e-4)):
+                    number = next(item["run"] for item in problem[name] if item["error"] == best["error"])
+                    found = problem["runs"][number] if number is not None else None
+                    self.assertEqual(found, min(among, key=lambda run: run["seconds_per_simulated_second"], default=None))
+                    self.assertEqual(found, precision.best_within(problem, best["error"], most))
 
     def test_the_table_says_the_same(self) -> None:
         rows = [row for row in self.table if not row["failure"]]

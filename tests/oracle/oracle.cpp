@@ -134,10 +134,27 @@ void Oracle::activate() {
     at(x_, lay.node) = (1 - lay.s) * at(x_, lay.a) + lay.s * at(x_, lay.b) + lay.offset;
     at(v_, lay.node) = (1 - lay.s) * at(v_, lay.a) + lay.s * at(v_, lay.b);
   }
+  keep_momentum();
   if (n_ > 0) change_step(scene_.closing.step.value_or(dt_));
   for (const cinch::Lay& lay : assembly_.lays) {
     at(v_, lay.node) += lay.jump;
     if (at(assembly_.nodes, lay.node).support == Support::fixed) at(v_, lay.node).setZero();
+  }
+  for (const cinch::Recoil& recoil : assembly_.recoils) at(v_, recoil.node) += recoil.jump;
+}
+
+/// Where more of a thread's mass lay on a node than its own nodes weigh there, the rest moves to all of them
+/// but its ends, with its momentum.
+void Oracle::keep_momentum() {
+  for (const cinch::LaidThread& laid : assembly_.laid) {
+    Vec3 momentum = Vec3::Zero();
+    for (const cinch::Load& load : laid.excess) momentum += load.mass * at(v_, load.node);
+    const std::vector<Index>& nodes = at(assembly_.parts, laid.part).nodes;
+    double mass = 0;
+    for (std::size_t k = 1; k + 1 < nodes.size(); ++k)
+      if (nodes[k] >= assembly_.nodes_before) mass += at(assembly_.nodes, nodes[k]).mass;
+    for (std::size_t k = 1; k + 1 < nodes.size(); ++k)
+      if (nodes[k] >= assembly_.nodes_before) at(v_, nodes[k]) += momentum / mass;
   }
 }
 

@@ -87,6 +87,7 @@ class Oracle {
 
   void set_extent();
   void activate();
+  void keep_momentum();
   void change_step(double dt);
   void integrate(const Evaluation& now);
   void book(const Evaluation& now);
