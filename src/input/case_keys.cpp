@@ -51,7 +51,9 @@ const Section<TimeSpec>& time_section() {
             .words = {"auto"},
             .fallback = "\"auto\"",
             .by_method = {{"paper", "1e-6"}},
-            .meaning = "Time step. `auto`: `safety` times the stable step of the scene.",
+            .meaning =
+                "Time step. `auto`: `safety` times the stable step of what moves, before the closing time "
+                "and from it on.",
             .source = "the paper's step (Sec. 5.3) is 1e-6 s; whether it is stable depends on the scene"},
            [](TimeSpec& time, const Value& value) { time.step = value.is_word ? 0 : value.number; }},
           {{.name = "safety",
