@@ -48,6 +48,24 @@ TEST_F(Reported, ClosingTimesSideBySide) {
   EXPECT_TRUE(has(row.substr(0, row.find("</tr>")), "<td>–</td>")) << "not yet decided whether it encloses";
 }
 
+TEST_F(Reported, CapturesMadeAgain) {
+  const std::vector<std::string> quick{"case.method=sliding",          "time.step_s=auto",
+                                       "closing.time_s=1.2",           "time.end_s=1.35",
+                                       "output.frame_interval_s=0.01", "thread.c_top.elements=12",
+                                       "thread.c_right.elements=12",   "thread.c_bottom.elements=12",
+                                       "thread.c_left.elements=12"};
+  simulate("capture", "c", quick);
+  std::vector<std::string> otherwise = quick, later = quick;
+  otherwise.push_back("net.main.stowed_factor=0.1001");
+  simulate("capture", "again", otherwise);
+  later.push_back("closing.time_s=1.3");
+  simulate("capture", "later", later);
+  ASSERT_EQ(run({"report", "c", "--again", "again", "later", "--table", "table.md"}), 0) << err();
+  EXPECT_EQ(err(), "warning: --again later is left out: no result closes at its time\n");
+  const std::string table = text_of(path("table.md"));
+  EXPECT_TRUE(has(table, "median of 2 runs")) << table;
+}
+
 TEST_F(Reported, AnotherSceneIsNotJudgedByThePapersNumbers) {
   simulate("ring_pull", "r", {"time.end_s=0.01", "thread.main.start.mass_kg=5"});
   ASSERT_EQ(run({"report", "r", "--table", "table.md", "--open", "r"}), 0) << err();

@@ -232,6 +232,52 @@ TEST(Report, A_capture_with_one_thing_wrong_fails_that_row) {
             Verdict::within_open_inputs);
 }
 
+VerdictRow row_over(const std::vector<Digest>& results, const std::vector<Digest>& again,
+                    const std::string& key) {
+  const auto rows = compare_with_paper(results, {}, again);
+  const VerdictRow* row = find_row(rows, key);
+  return row ? *row : VerdictRow{};
+}
+
+TEST(Report, Captures_made_again_are_judged_by_their_median) {
+  const auto closed_after = [](double time) {
+    Digest d = capture();
+    d.summary->events[2].time = 1.5 + time;
+    return d;
+  };
+  Digest open = capture();
+  open.summary->events.resize(2);
+  const std::vector<Digest> late{closed_after(0.8)};
+  EXPECT_EQ(verdict_on(late, "capture.closes_after"), Verdict::not_reproduced);
+  Digest other_time = capture(1.3);
+  const std::vector<Digest> again{
+      closed_after(0.31), closed_after(0.36), open,
+      closed_after(0.39), other_time,         ring_pull(200, 1.5, {0, 0.58, -0.41}, 0.301)};
+  const VerdictRow row = row_over(late, again, "capture.closes_after");
+  EXPECT_NEAR(row.here.value_or(0), 0.39, 1e-12) << "of 0.31, 0.36, 0.39, 0.8 and one that stays open";
+  EXPECT_EQ(row.verdict, Verdict::reproduced);
+  EXPECT_NE(row.note.find("median of 5 runs, 0.31 s to 0.8 s, 1 without"), std::string::npos) << row.note;
+  const VerdictRow enclosed = row_over(late, again, "capture.enclosed");
+  EXPECT_EQ(enclosed.here, 1);
+  EXPECT_NE(enclosed.note.find("median of 5 runs, 0 to 1"), std::string::npos) << enclosed.note;
+  const VerdictRow few = row_over(late, {open, open}, "capture.closes_after");
+  EXPECT_EQ(few.verdict, Verdict::missing);
+  EXPECT_NE(few.note.find("in 1 of 3 runs"), std::string::npos) << few.note;
+  EXPECT_EQ(row_over(late, {}, "capture.closes_after").note.find("median"), std::string::npos);
+}
+
+TEST(Report, How_far_a_capture_gets_is_a_mean_over_those_made_again) {
+  const auto reaching = [](double closing, double z) {
+    Digest d = capture(closing);
+    d.mass_position.assign(2, line({0, 0, z}, {0, 0, z}, 2.1));
+    return d;
+  };
+  const std::vector<Digest> results{reaching(1.5, 1), reaching(1.3, 1.1)};
+  EXPECT_NEAR(row_over(results, {}, "capture.later_further").here.value_or(9), -0.1, 1e-12);
+  const std::vector<Digest> again{reaching(1.5, 1.4), reaching(1.5, 1.2)};
+  EXPECT_NEAR(row_over(results, again, "capture.later_further").here.value_or(9), 0.1, 1e-12);
+}
+
 TEST(Report, The_range_over_open_inputs_names_its_ends) {
   Digest slack = capture(), tight = capture();
   slack.file = "study/long_thread/run.vtkhdf";

@@ -25,9 +25,10 @@ struct RunArguments {
 
 struct ReportArguments {
   std::vector<std::filesystem::path> results;
-  std::vector<std::filesystem::path> open;  ///< runs with inputs changed that the paper leaves open
-  std::filesystem::path html;               ///< empty: report.html beside the first result
-  std::filesystem::path table;              ///< Markdown table; empty: none
+  std::vector<std::filesystem::path> open;   ///< runs with inputs changed that the paper leaves open
+  std::vector<std::filesystem::path> again;  ///< runs that repeat captures, begun a little otherwise
+  std::filesystem::path html;                ///< empty: report.html beside the first result
+  std::filesystem::path table;               ///< Markdown table; empty: none
 };
 
 /// What `cinch check` tells besides.

@@ -90,6 +90,8 @@ Commands define(CLI::App& app, Options& options) {
                        "cinch report's are never replaced");
   c.report->add_option("--table", options.report.table, "Markdown file for the table of the paper's numbers");
   c.report->add_option("--open", options.report.open, "runs with inputs changed that the paper leaves open");
+  c.report->add_option("--again", options.report.again,
+                       "captures once more, begun a little otherwise: numbers are medians then");
   c.compare->add_option("RESULT", options.results, "two folders or .vtkhdf files")->required()->expected(2);
   return c;
 }

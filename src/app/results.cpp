@@ -1,4 +1,5 @@
 // `cinch info`, `cinch report` and `cinch compare`: what to do with results.
+#include <algorithm>
 #include <iostream>
 
 #include "app/commands.hpp"
@@ -9,6 +10,7 @@
 #include "output/result_layout.hpp"
 #include "output/result_reader.hpp"
 #include "report/open_inputs.hpp"
+#include "report/repeats.hpp"
 #include "report/report.hpp"
 
 namespace cinch::app {
@@ -24,6 +26,29 @@ void require_own_files(const fs::path& page, const fs::path& table) {
     throw Error(ExitCode::usage, "error: page and table would be the same file: " + table.string());
 }
 
+// Of runs that an option names; those that are not the paper's scene count for nothing.
+std::vector<Digest> digests_of(const char* option, const std::vector<fs::path>& paths) {
+  std::vector<Digest> digests;
+  for (const fs::path& path : paths) {
+    digests.push_back(digest(Result(path)));
+    const std::string& why = digests.back().unjudged;
+    if (!why.empty())
+      std::cerr << "warning: " << option << " " << path.string() << " is left out: " << why << "\n";
+  }
+  return digests;
+}
+
+// Of runs that repeat one of the results; others count for nothing.
+std::vector<Digest> repeats_among(const std::vector<fs::path>& paths, const std::vector<Result>& results) {
+  std::vector<Digest> digests = digests_of("--again", paths);
+  for (std::size_t i = 0; i < paths.size(); ++i) {
+    const auto repeated = [&](const Result& result) { return repeats(digests[i].model, result.model()); };
+    if (digests[i].unjudged.empty() && std::none_of(results.begin(), results.end(), repeated))
+      std::cerr << "warning: --again " << paths[i].string() << " is left out: no result closes at its time\n";
+  }
+  return digests;
+}
+
 }  // namespace
 
 int info(const std::filesystem::path& result) {
@@ -37,15 +62,10 @@ int report(const ReportArguments& arguments) {
   fs::path html = arguments.html;
   if (html.empty()) html = results.front().path().parent_path() / layout::kReportFile;
   require_own_files(html, arguments.table);
-  std::vector<Digest> variants;
-  for (const auto& path : arguments.open) {
-    variants.push_back(digest(Result(path)));
-    const std::string& why = variants.back().unjudged;
-    if (!why.empty()) std::cerr << "warning: --open " << path.string() << " is left out: " << why << "\n";
-  }
-  const Sensitivity open_inputs = range_over(variants);
-  write_report(results, html, open_inputs);
-  if (!arguments.table.empty()) write_paper_table(results, arguments.table, open_inputs);
+  const Sensitivity open_inputs = range_over(digests_of("--open", arguments.open));
+  const std::vector<Digest> again = repeats_among(arguments.again, results);
+  write_report(results, html, open_inputs, again);
+  if (!arguments.table.empty()) write_paper_table(results, arguments.table, open_inputs, again);
   for (const Result& result : results) print_verdict(result, std::cout);
   std::cout << "report: " << html.string() << "\n";
   return 0;

@@ -49,6 +49,9 @@ Measured left_above_right(const Digest& d, double time);  ///< m, against gravit
 /// Numbers of the mass on the short (paper: left) and on the long side; empty unless there are two.
 std::optional<std::array<int, 2>> left_and_right(const Digest& d);
 
+/// Closing times less than this apart are the same, s.
+inline constexpr double same_closing_time = 0.005;
+
 // 5.3, net closure, until 0.5 s after the closing time; times are counted from there where the name says
 // "after"
 Measured first_touch(const Digest& d);                ///< s
@@ -62,7 +65,7 @@ Measured mirror_departure(const Digest& d);      ///< m/s
 Measured first_collision_time(const Digest& d, const std::string& ring);   ///< s after the closing time
 Measured first_collision_force(const Digest& d, const std::string& ring);  ///< N
 Measured peak_force_time(const Digest& d, const std::string& ring);        ///< s after the closing time
-Measured least_gain_along_z(const Results& results);                       ///< m
+Measured least_gain_along_z(const Results& results);                       ///< m, of means over closing times
 
 /// Numbers of mechanism 1's split masses a and b; empty when the result has none.
 std::optional<std::array<int, 2>> split_masses(const Digest& d);

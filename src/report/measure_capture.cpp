@@ -1,6 +1,8 @@
 // Measurements of the net's closure, paper Sec. 5.3.
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <numeric>
 
 #include "report/measure.hpp"
 
@@ -168,23 +170,25 @@ Measured peak_force_time(const Digest& d, const std::string& ring) {
 }
 
 Measured least_gain_along_z(const Results& results) {
-  std::vector<std::pair<double, double>>
-      reach;  // closing time, mean Z of mechanism 1's split masses 0.4 s later
+  std::map<double, std::vector<double>>
+      reached;  // by closing time: mean Z of mechanism 1's split masses 0.4 s later
   for (const Digest* d : results) {
     const auto pair = split_masses(*d);
     if (!pair || !d->model.closing_time || !reaches(*d, *d->model.closing_time + 0.4)) continue;
-    const double time = *d->model.closing_time + 0.4;
+    const double time = *d->model.closing_time;
     double z = 0;
-    for (const int m : *pair) z += d->mass_position[at(m)].component(2).at(time) / 2;
-    reach.emplace_back(*d->model.closing_time, z);
+    for (const int m : *pair) z += d->mass_position[at(m)].component(2).at(time + 0.4) / 2;
+    const auto known = reached.lower_bound(time - same_closing_time);
+    const bool same = known != reached.end() && known->first < time + same_closing_time;
+    (same ? known->second : reached[time]).push_back(z);
   }
-  std::sort(reach.begin(), reach.end());
   std::optional<double> least;
-  for (std::size_t i = 1; i < reach.size(); ++i)
-    if (reach[i].first > reach[i - 1].first) {
-      const double gain = reach[i].second - reach[i - 1].second;
-      least = std::min(least.value_or(gain), gain);
-    }
+  std::optional<double> before;
+  for (const auto& [time, all] : reached) {
+    const double z = std::accumulate(all.begin(), all.end(), 0.0) / static_cast<double>(all.size());
+    if (before) least = std::min(least.value_or(z - *before), z - *before);
+    before = z;
+  }
   return {least, ""};
 }
 

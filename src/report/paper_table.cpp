@@ -29,12 +29,12 @@ std::string row_text(const VerdictRow& row) {
 }  // namespace
 
 void write_paper_table(const std::vector<Result>& results, const std::filesystem::path& markdown_file,
-                       const Sensitivity& open_inputs) {
+                       const Sensitivity& open_inputs, const std::vector<Digest>& again) {
   if (results.empty()) throw Error(ExitCode::usage, "report: no result given");
   std::string text =
       "| " + results.front().model().case_name + " " + kTableMark + "\n|---|---|---|---|---|---|\n";
   const std::vector<Digest> digests = digest_all(results);
-  for (const VerdictRow& row : compare_with_paper(digests, open_inputs)) text += row_text(row);
+  for (const VerdictRow& row : compare_with_paper(digests, open_inputs, again)) text += row_text(row);
   for (const Digest& d : digests)
     if (!d.unjudged.empty()) text += "|" + cell(d.label() + ": " + d.unjudged) + " | | | | |\n";
   replace_text_file(markdown_file, text + "\n");

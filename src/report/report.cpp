@@ -239,10 +239,10 @@ string record_section(const Digest& d) {
 }  // namespace
 
 void write_report(const std::vector<Result>& results, const std::filesystem::path& html_file,
-                  const Sensitivity& open_inputs) {
+                  const Sensitivity& open_inputs, const std::vector<Digest>& again) {
   if (results.empty()) throw Error(ExitCode::usage, "report: no result given");
   const std::vector<Digest> digests = digest_all(results);
-  const auto rows = compare_with_paper(digests, open_inputs);
+  const auto rows = compare_with_paper(digests, open_inputs, again);
   const Digest& d = digests.front();
   const auto figures = figure_plots(digests), energy = energy_plots(d);
   auto probes = probe_plots(d, figures);

@@ -5,6 +5,7 @@
 
 #include "report/html.hpp"
 #include "report/measure.hpp"
+#include "report/repeats.hpp"
 
 namespace cinch {
 namespace {
@@ -176,44 +177,68 @@ Results nearest_closing_time_first(Results results) {
 // All but Fig. 14 is of the run that closes at 1.5 s; null where there is none.
 const Digest* paper_run(const Results& results) {
   const Digest* nearest = nearest_closing_time_first(results).front();
-  return off_closing_time(nearest) < 0.005 ? nearest : nullptr;
+  return off_closing_time(nearest) < measure::same_closing_time ? nearest : nullptr;
 }
 
-template <class Measure>
-void row_of(const Digest* run, const std::string& key, Table& table, Measure measure) {
-  table.row(key, run ? measure(*run) : Measured{{}, "needs a result that closes at 1.5 s"}, run);
-}
+// Rows of captures, each number the median over the runs that repeat one.
+class CaptureRows {
+ public:
+  CaptureRows(const Results& unsorted, const std::vector<Digest>& again, Table& table)
+      : results_(nearest_closing_time_first(unsorted)),
+        run_(paper_run(results_)),
+        again_(again),
+        table_(table) {}
 
-void capture_rings(const Digest* run, Table& table) {
-  for (const char* ring : {"1", "2"}) {
-    const std::string key = std::string("capture.ring") + ring;
-    row_of(run, key + "_time", table, [&](auto& d) { return measure::first_collision_time(d, ring); });
-    row_of(run, key + "_force", table, [&](auto& d) { return measure::first_collision_force(d, ring); });
+  void fill() {
+    of_run("capture.first_touch", measure::first_touch);
+    of_run("capture.closes_after", measure::closed_after);
+    if (results_.size() > 1) of_each("capture.closed_by", measure::closed_after);
+    of_each("capture.enclosed", measure::enclosed);
+    velocities();
+    rings();
+    Results all;
+    for (const Digest* d : results_)
+      for (const Digest* repeat : with_repeats(*d, again_)) all.push_back(repeat);
+    table_.row("capture.later_further", measure::least_gain_along_z(all));
   }
-  row_of(run, "capture.ring1_peak", table, [](auto& d) { return measure::peak_force_time(d, "1"); });
-}
 
-void capture_velocities(const Digest* run, Table& table) {
-  for (int axis = 0; axis < 3; ++axis)
-    row_of(run, std::string("capture.jump_") + "xyz"[axis], table,
-           [&](auto& d) { return measure::separation_jump(d, axis); });
-  row_of(run, "capture.a1_falls", table, [](auto& d) { return measure::share_lost(d, 0); });
-  row_of(run, "capture.a1_turns", table, measure::turns_positive_after);
-  row_of(run, "capture.a1_y_steady", table, measure::y_change_over_x);
-  row_of(run, "capture.mirror", table, measure::mirror_departure);
-}
+ private:
+  using Measure = std::function<Measured(const Digest&)>;
 
-void capture_table(const Results& unsorted, Table& table) {
-  const Results results = nearest_closing_time_first(unsorted);
-  const Digest* run = paper_run(results);
-  row_of(run, "capture.first_touch", table, measure::first_touch);
-  row_of(run, "capture.closes_after", table, measure::closed_after);
-  if (results.size() > 1) row_each(results, "capture.closed_by", table, measure::closed_after);
-  row_each(results, "capture.enclosed", table, measure::enclosed);
-  capture_velocities(run, table);
-  capture_rings(run, table);
-  table.row("capture.later_further", measure::least_gain_along_z(results));
-}
+  void add(const std::string& key, const Digest& of, const Measure& measure) {
+    table_.row(key, median_over(with_repeats(of, again_), measure, paper_number(key).unit), &of);
+  }
+  void of_run(const std::string& key, const Measure& measure) {
+    if (run_) add(key, *run_, measure);
+    else table_.row(key, {{}, "needs a result that closes at 1.5 s"});
+  }
+  void of_each(const std::string& key, const Measure& measure) {
+    for (const Digest* d : results_) add(key, *d, measure);
+  }
+
+  void velocities() {
+    for (int axis = 0; axis < 3; ++axis)
+      of_run(std::string("capture.jump_") + "xyz"[axis],
+             [axis](auto& d) { return measure::separation_jump(d, axis); });
+    of_run("capture.a1_falls", [](auto& d) { return measure::share_lost(d, 0); });
+    of_run("capture.a1_turns", measure::turns_positive_after);
+    of_run("capture.a1_y_steady", measure::y_change_over_x);
+    of_run("capture.mirror", measure::mirror_departure);
+  }
+  void rings() {
+    for (const char* ring : {"1", "2"}) {
+      const std::string key = std::string("capture.ring") + ring;
+      of_run(key + "_time", [ring](auto& d) { return measure::first_collision_time(d, ring); });
+      of_run(key + "_force", [ring](auto& d) { return measure::first_collision_force(d, ring); });
+    }
+    of_run("capture.ring1_peak", [](auto& d) { return measure::peak_force_time(d, "1"); });
+  }
+
+  Results results_;
+  const Digest* run_;  // the paper's; null where there is none
+  const std::vector<Digest>& again_;
+  Table& table_;
+};
 
 }  // namespace
 
@@ -240,8 +265,8 @@ Verdict judge(const PaperNumber& paper, double here, const OpenRange* range) {
   return range && range_allows(paper, *range) ? Verdict::within_open_inputs : Verdict::not_reproduced;
 }
 
-std::vector<VerdictRow> compare_with_paper(const std::vector<Digest>& results,
-                                           const Sensitivity& sensitivity) {
+std::vector<VerdictRow> compare_with_paper(const std::vector<Digest>& results, const Sensitivity& sensitivity,
+                                           const std::vector<Digest>& again) {
   Results same;
   for (const Digest& d : results)
     if (d.paper_case == results.front().paper_case) same.push_back(&d);
@@ -250,7 +275,7 @@ std::vector<VerdictRow> compare_with_paper(const std::vector<Digest>& results,
   Table table(sensitivity, same.size() > 1, closes ? paper_run(same) : same.front());
   if (same.front()->paper_case == PaperCase::ring_pull) ring_pull_table(same, table);
   if (same.front()->paper_case == PaperCase::edge_closure) edge_closure_table(same, table);
-  if (same.front()->paper_case == PaperCase::capture) capture_table(same, table);
+  if (same.front()->paper_case == PaperCase::capture) CaptureRows(same, again, table).fill();
   return std::move(table.rows);
 }
 

@@ -31,8 +31,10 @@ struct VerdictRow {
 /// The verdict on one number, without looking at open inputs when `range` is null.
 Verdict judge(const PaperNumber& paper, double here, const OpenRange* range = nullptr);
 
-/// All rows that apply to the case of the first result; results of other cases are left out.
+/// All rows that apply to the case of the first result; results of other cases are left out. Runs of `again`
+/// repeat captures among the results, each begun a little otherwise: rows are medians then.
 std::vector<VerdictRow> compare_with_paper(const std::vector<Digest>& results,
-                                           const Sensitivity& sensitivity = {});
+                                           const Sensitivity& sensitivity = {},
+                                           const std::vector<Digest>& again = {});
 
 }  // namespace cinch
