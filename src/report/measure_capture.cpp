@@ -184,12 +184,14 @@ Measured least_gain_along_z(const Results& results) {
   }
   std::optional<double> least;
   std::optional<double> before;
+  std::size_t runs = 1;
   for (const auto& [time, all] : reached) {
+    runs = std::max(runs, all.size());
     const double z = std::accumulate(all.begin(), all.end(), 0.0) / static_cast<double>(all.size());
     if (before) least = std::min(least.value_or(z - *before), z - *before);
     before = z;
   }
-  return {least, ""};
+  return {least, runs > 1 ? "means of up to " + std::to_string(runs) + " runs" : ""};
 }
 
 }  // namespace cinch::measure

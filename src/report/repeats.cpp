@@ -10,8 +10,8 @@ namespace {
 
 std::string words(const std::vector<double>& values, std::size_t runs, std::string_view unit) {
   std::string text = "median of " + std::to_string(runs) + " runs";
-  if (values.front() < values.back())
-    text += ", " + html::plain(values.front(), unit) + " to " + html::plain(values.back(), unit);
+  const std::string least = html::plain(values.front(), unit), most = html::plain(values.back(), unit);
+  if (least != most) text += ", " + least + " to " + most;
   if (values.size() < runs) text += ", " + std::to_string(runs - values.size()) + " without";
   return text;
 }
