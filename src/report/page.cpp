@@ -60,7 +60,9 @@ string difference(const VerdictRow& row) {
 }
 
 // Rows of the same number for further results leave out what the first of them says.
-string table_row(const VerdictRow& row, bool several, bool again) {
+// What stands in the row above is not said again.
+string table_row(const VerdictRow& row, bool several, const VerdictRow* above) {
+  const bool again = above != nullptr && above->paper == row.paper;
   string cells =
       again ? "<td></td><td></td>"
             : tag("td", escape_markup(row.paper->what)) + tag("td", escape_markup(row.paper->source), "soft");
@@ -68,7 +70,7 @@ string table_row(const VerdictRow& row, bool several, bool again) {
   cells += tag("td", again ? "" : paper_value(*row.paper), row.paper->paper.empty() ? "n" : "words");
   cells += tag("td", row.here ? html::quantity(*row.here, row.paper->unit) : "–", "n");
   cells += tag("td", difference(row), "n") + tag("td", badge(row.verdict)) +
-           tag("td", again ? "" : escape_markup(row.note), "note");
+           tag("td", again && above->note == row.note ? "" : escape_markup(row.note), "note");
   return tag("tr", cells, again ? "again" : "") + "\n";
 }
 
@@ -139,8 +141,7 @@ string paper_table(const std::vector<VerdictRow>& rows, bool several) {
           tag("th", "Verdict") + tag("th", "Sensitivity and notes");
   string body;
   for (std::size_t i = 0; i < rows.size(); ++i)
-    body += table_row(rows[i], several,
-                      i > 0 && rows[i].paper == rows[i - 1].paper && rows[i].note == rows[i - 1].note);
+    body += table_row(rows[i], several, i > 0 ? &rows[i - 1] : nullptr);
   return "<div class=\"scroll\">" +
          tag("table", tag("thead", tag("tr", head)) + tag("tbody", body), "paper") + "</div>\n";
 }
