@@ -75,6 +75,36 @@ end = { mass_kg = 0.1 }
   EXPECT_NEAR(other.peak_force, one.peak_force, 0.05 * one.peak_force);
 }
 
+// Its joint goes on where it is: the ball has passed nodes by then.
+TEST(Combinations, AThreadGoesOnSlidingWhileSomethingElseCloses) {
+  std::string sliding = ring;
+  sliding.replace(sliding.find("contact"), 7, "sliding");
+  const std::string hung =
+      material + "[gravity]\nacceleration_m_s2 = [0, 0, -9.81]\n" + sliding + R"([thread.a]
+material = "t"
+diameter_m = 0.001
+elements = 20
+points_m = [[-0.2, 0, -0.05], [0, 0, 0], [0.2, 0, -0.05]]
+start = { mass_kg = 0.1 }
+end = { mass_kg = 0.3 }
+)";
+  Simulation alone = simulate(hung, 0.15);
+  Simulation beside = simulate(hung + net + "[closing]\ntime_s = 0.12\n" +
+                                   "[thread.k]\nmaterial = \"t\"\ndiameter_m = 0.001\nelements = 10\n"
+                                   "along = [\"net.main.top\"]\n",
+                               0.15);
+  ASSERT_TRUE(beside.closed_phase());
+  const Preparation& p = alone.preparation();
+  const Index heavy = p.assembly.node_of("thread.a.end"),
+              also = beside.preparation().assembly.node_of("thread.a.end");
+  const kernel::JointState &one = alone.state().joints[0], &other = beside.state().joints[0];
+  EXPECT_NE(one.element, p.whole().joint_element[0]) << "nodes have passed";
+  EXPECT_EQ(other.element, one.element);
+  EXPECT_EQ(other.passes, one.passes);
+  EXPECT_LT((alone.look().position(heavy) - beside.look().position(also)).norm(), 1e-4);
+  EXPECT_LT(beside.summary().relative_residual, 1e-3);
+}
+
 TEST(Combinations, AThreadHangsOnARingsOwnNode) {
   const std::string text = material + ring + R"([thread.a]
 material = "t"

@@ -237,9 +237,14 @@ TEST(Closing, LayingCostsATwelfthOfTheThreadsMass) {
 }
 
 TEST(Closing, KeepsLinearMomentumToRounding) {
-  for (const Scene& scene :
-       {carrier(50), read("capture", {{"closing.time_s", "0.0005"}}),
-        read("capture", {{"closing.time_s", "0.0005"}, {"net.main.stowed_factor", "1"}})}) {
+  Scene uneven = read("capture", {{"closing.time_s", "0.0005"}}), two_steps = uneven;
+  for (Thread& thread : uneven.threads) thread.elements = 31;  // their masses move when they are laid
+  two_steps.closing.step = 0.6e-6;
+  Scene both = uneven;
+  both.closing.step = 1.7e-6;
+  for (const Scene& scene : {carrier(50), read("capture", {{"closing.time_s", "0.0005"}}),
+                             read("capture", {{"closing.time_s", "0.0005"}, {"net.main.stowed_factor", "1"}}),
+                             uneven, two_steps, both}) {
     SCOPED_TRACE(scene.name);
     Simulation simulation(scene, 1);
     const std::int64_t closing = simulation.preparation().closing_step;

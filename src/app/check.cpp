@@ -49,19 +49,22 @@ void print_joints(const Assembly& assembly) {
   print("contact, as no thread passes through", missed);
 }
 
-void print_steps(const Scene& scene, const Preparation& p) {
+void print_steps(const Preparation& p) {
+  const char* label = "stable step";
   for (const Phase& phase : p.phases) {
-    const bool first = &phase == &p.phases.front();
-    std::printf("%-16s %.4g s, limited by %s\n", first ? "stable step" : "", phase.bound.step,
-                phase.limited_by.c_str());
+    std::printf("%-16s %.4g s, limited by %s\n", label, phase.bound.step, phase.limited_by.c_str());
+    label = "";
   }
+  label = "step";
+  std::int64_t begin = 0;
   for (const Phase& phase : p.phases) {
-    const bool first = &phase == &p.phases.front(), last = &phase == &p.phases.back();
-    const double given = last && scene.closing.step ? *scene.closing.step : scene.time.step;
+    const bool last = &phase == &p.phases.back();
     const std::int64_t end = last ? p.end_step : std::min(p.closing_step, p.end_step);
-    std::printf("%-16s %.4g s (%s, %.2g of the stable step), %lld steps to %g s\n", first ? "step" : "",
-                phase.plan.dt, given > 0 ? "given" : "automatic", phase.plan.dt / phase.bound.step,
-                static_cast<long long>(end), p.timeline.time_of(end));
+    if (last && begin > end) break;
+    std::printf("%-16s %.4g s (%s, %.2g of the stable step), %lld steps to %g s\n", label, phase.plan.dt,
+                phase.step_given ? "given" : "automatic", phase.plan.dt / phase.bound.step,
+                static_cast<long long>(end - begin), p.timeline.time_of(end));
+    label = "", begin = end;
   }
 }
 
@@ -208,7 +211,7 @@ int check(const CaseArguments& arguments, const CheckOptions& options) {
   std::vector<std::string> warnings = case_warnings(scene, p);
   print_counts(scene, p);
   print_joints(p.assembly);
-  print_steps(scene, p);
+  print_steps(p);
   print_stages(p);
   print_output(scene, p);
   const std::size_t start = memory_at_start(p);

@@ -205,14 +205,16 @@ const Section<Closing>& closing_section() {
             .unit = "s",
             .range = above(0, 1),
             .words = {"auto"},
-            .fallback_note = "that of `[time]`",
+            .fallback_note = "that of `[time]`; with `safety` `\"auto\"`",
             .meaning = "Time step from the closing time on. `auto`: `safety` times the stable step of what "
                        "moves then."},
            [](Closing& closing, const Value& value) { closing.step = value.is_word ? 0 : value.number; }},
           {{.name = "safety",
             .range = above(0, 1),
             .fallback_note = "that of `[time]`",
-            .meaning = "Automatic step over the stable step from the closing time on.",
+            .meaning =
+                "Automatic step over the stable step from the closing time on; limited as that of `[time]` "
+                "where little damps a material.",
             .source = "a net that unfolds is jerked taut, one that closes allows longer steps (README)"},
            into(&Closing::safety)},
       });

@@ -1,5 +1,7 @@
 #include "plan/closing.hpp"
 
+#include <algorithm>
+
 #include "store/fields.hpp"
 
 namespace cinch {
@@ -27,10 +29,29 @@ void keep_momentum(const Model& after, const Assembly& assembly, State& state) {
   }
 }
 
+// Threads that slide through rings already have the same joints in both models. What their dampers have taken
+// is booked with all of the phase before; their last forces are as unknown as those of elements.
+void keep_joints(const Model& model_before, const Model& model_after, const State& before, State& state) {
+  for (std::size_t t = 0; t < model_before.sliding_threads.size(); ++t) {
+    const auto& first = model_after.sliding_first;
+    const auto found = std::find(first.begin(), first.end(), model_before.sliding_first[t]);
+    const kernel::SlidingThread &from = model_before.sliding_threads[t],
+                                &to = model_after.sliding_threads[at(Index(found - first.begin()))];
+    for (Index j = 0; j < from.joint_end - from.joint_begin; ++j) {
+      kernel::JointState& joint = state.joints[at(to.joint_begin + j)];
+      joint = before.joints[at(from.joint_begin + j)];
+      joint.dissipated = joint.due = 0;
+      joint.rings = 0;
+      joint.last_length = joint.last_straight = -1;
+    }
+  }
+}
+
 }  // namespace
 
-State lay_closing_threads(const Model& after, const Assembly& assembly, const State& before) {
-  State state(after);
+State lay_closing_threads(const Model& model_before, const Model& model_after, const Assembly& assembly,
+                          const State& before) {
+  State state(model_after);
   state.step = before.step;
   for (const NodeField& field : node_fields) {
     const auto& from = before.*field.values;
@@ -44,7 +65,8 @@ State lay_closing_threads(const Model& after, const Assembly& assembly, const St
     state.y[at(lay.node)] += lay.offset.y();
     state.z[at(lay.node)] += lay.offset.z();
   }
-  keep_momentum(after, assembly, state);
+  keep_momentum(model_after, assembly, state);
+  keep_joints(model_before, model_after, before, state);
   state.balls = before.balls;  // what targets and rings have felt so far goes on
   if (!before.rings.empty()) state.rings = before.rings;
   return state;

@@ -58,12 +58,12 @@ void Ledger::book_closing(const Energies& before, const State& state_before, con
   const Momentum reactions = reaction_impulse(state_before);
   carried_outside_.linear += reactions.linear;
   carried_outside_.angular += reactions.angular;
-  // angular momentum: laid nodes lie on chords, so this is not exact; linear momentum is, and is not booked
+  // angular momentum: laid nodes lie on chords, so this is not exact; laying keeps linear momentum
   booked_.angular += half_step_momentum(model_after, state_after).angular -
                      half_step_momentum(model_before, state_before).angular;
 }
 
-void Ledger::book_supports(const Momentum& impulse) {
+void Ledger::book_outside(const Momentum& impulse) {
   carried_outside_.linear += impulse.linear;
   carried_outside_.angular += impulse.angular;
 }

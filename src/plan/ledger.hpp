@@ -31,7 +31,7 @@ class Ledger {
                     const Model& model_after);
   /// Impulse that supports gave when they stopped a node at the closing time; or that what acts from outside
   /// gave between two instants half a step back, where the step changes.
-  void book_supports(const Momentum& impulse);
+  void book_outside(const Momentum& impulse);
   /// All terms at the time of a look that saw `now`.
   Energies energies(const Energies& now);
 

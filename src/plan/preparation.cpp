@@ -20,7 +20,8 @@ double greatest_safety(double damping_ratio) {
 
 std::string place_of(const SourceRef& source) { return source.text.empty() ? "" : source.text + ": "; }
 
-// A step that fits whole numbers of times into the frame interval, below safety x bound.
+// A step that fits whole numbers of times into the frame interval, below safety x bound. From a closing time
+// on that is no frame's, frames and the end come up to half a step beside their time.
 double automatic_step(const Scene& scene, double safety, double bound) {
   const double interval = scene.output.frame_interval;
   for (const auto& [name, material] : scene.materials)
@@ -37,14 +38,14 @@ struct StepKeys {
   SourceRef source;  // of the step
 };
 
-StepKeys keys_of(const Scene& scene, Stage stage) {
-  const TimeSpec& time = scene.time;
-  StepKeys keys{"time.step_s", time.step, time.safety, time.source};
-  if (stage == Stage::before_closing) return keys;
-  if (scene.closing.safety) keys.safety = *scene.closing.safety;
-  if (scene.closing.step)
-    keys = {"closing.step_s", *scene.closing.step, keys.safety, scene.closing.step_source};
-  return keys;
+// From the closing time on steps are those of [closing] as far as it says so: its safety asks for automatic
+// ones.
+StepKeys keys_of(const Scene& scene, bool closed) {
+  StepKeys keys{"time.step_s", scene.time.step, scene.time.safety, scene.time.source};
+  const Closing& closing = scene.closing;
+  if (!closed || !(closing.step || closing.safety)) return keys;
+  return {"closing.step_s", closing.step.value_or(0), closing.safety.value_or(keys.safety),
+          closing.step_source};
 }
 
 // Sums of constants from 1e-60 to 1e60 can still give a step that leads nowhere.
@@ -74,8 +75,9 @@ void check_step(const Scene& scene, const StepKeys& keys, const Phase& phase, do
 }
 
 // Throws CaseError for one that the phase does not allow.
-double step_of(const Scene& scene, Stage stage, const Phase& phase) {
-  const StepKeys keys = keys_of(scene, stage);
+double step_of(const Scene& scene, bool closed, Phase& phase) {
+  const StepKeys keys = keys_of(scene, closed);
+  phase.step_given = keys.step > 0;
   const double dt = keys.step > 0 ? keys.step : automatic_step(scene, keys.safety, phase.bound.step);
   check_step(scene, keys, phase, dt);
   check_number_of_steps(scene, keys, phase, dt);
@@ -131,7 +133,7 @@ namespace {
 void add_phases(const Scene& scene, Preparation& p) {
   const bool deploys = p.assembly.has_closing() && scene.closing.time.value_or(0) > 0;
   const auto add = [&](const char* name, Stage stage) {
-    Phase phase{name, build_model(p.assembly, scene, stage), {}, "", {}};
+    Phase phase{name, build_model(p.assembly, scene, stage), {}, "", false, {}};
     phase.bound = stable_step(phase.model);
     p.phases.push_back(std::move(phase));
   };
@@ -161,8 +163,10 @@ Preparation prepare(const Scene& scene) {
   note_least_stable_step(p);
   const bool deploys = p.phases.size() > 1;
   std::vector<double> dt;
-  for (const Phase& phase : p.phases)
-    dt.push_back(step_of(scene, deploys && dt.empty() ? Stage::before_closing : Stage::closing, phase));
+  for (Phase& phase : p.phases) {
+    const bool closed = p.assembly.has_closing() && &phase == &p.phases.back();
+    dt.push_back(step_of(scene, closed, phase));
+  }
   // what closes after t = 0 was deployed first: for a step at least
   if (p.assembly.has_closing())
     p.closing_step = std::max<std::int64_t>(Timeline(dt[0]).step_at(scene.closing.time.value_or(0)), deploys);

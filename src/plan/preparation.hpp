@@ -15,7 +15,8 @@ struct Phase {
   std::string name;  ///< "deployment" or "closing" where the scene has both, else "whole scene"
   Model model;
   StableStep bound;
-  std::string limited_by;  ///< the element that limits the step, in words
+  std::string limited_by;   ///< the element that limits the step, in words
+  bool step_given = false;  ///< by the case; else automatic
   StepPlan plan;
 };
 

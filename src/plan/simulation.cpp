@@ -152,8 +152,7 @@ void Simulation::start() {
     work = kinetic_energy(m, state_) - before;
     for (const Mechanism& mechanism : scene_.mechanisms) events_.push_back({0, "separation", mechanism.name});
   }
-  look_.take(*stepper_, state_, preparation_.assembly, false);
-  set_back(0.5);
+  take_half_step_back();
   drop_negative_zeros(state_);
   remember();
   look();
@@ -179,15 +178,10 @@ void Simulation::set_back(double steps) {
   }
 }
 
-// Velocities are those of half a step back: of a step of the new length from now on.
-void Simulation::change_step() {
-  const Timeline& timeline = preparation_.timeline;
-  if (timeline.before() == timeline.after()) return;
-  look();
-  const Momentum old = half_step_momentum(model(), state_);
-  set_back(0.5 * (1 - timeline.before() / timeline.after()));
-  const Momentum now = half_step_momentum(model(), state_);
-  ledger_.book_supports({now.linear - old.linear, Vec3::Zero()});
+// From velocities of the state's own time to those of half a step back.
+void Simulation::take_half_step_back() {
+  look_.take(*stepper_, state_, preparation_.assembly, false);
+  set_back(0.5);
 }
 
 // The nets that can enclose a target when their mouth closes.
@@ -199,13 +193,29 @@ void Simulation::find_surfaces() {
         surfaces_.emplace_back(net, part.nodes.front());
 }
 
+// Where the step changes, threads are laid with the velocities of the closing time itself: half a step back
+// is elsewhere then.
+void Simulation::lay_threads() {
+  const Timeline& timeline = preparation_.timeline;
+  const bool other_step = timeline.before() != timeline.after();
+  const Momentum old = half_step_momentum(model(), state_);
+  if (other_step) set_back(-0.5);
+  state_ = lay_closing_threads(preparation_.phases[0].model, preparation_.phases[1].model,
+                               preparation_.assembly, state_);
+  enter_phase(1);
+  if (!other_step) return;
+  take_half_step_back();
+  // what acts from outside has pushed between the two instants; the angular part is in book_closing's
+  // difference
+  const Momentum now = half_step_momentum(model(), state_);
+  ledger_.book_outside({now.linear - old.linear, Vec3::Zero()});
+}
+
 void Simulation::close() {
   const Model& before_model = model();
   const Energies before = look().energy();
-  State after = lay_closing_threads(preparation_.phases[1].model, preparation_.assembly, state_);
-  std::swap(state_, after);  // `after` now holds the state before
-  enter_phase(1);
-  change_step();
+  const State old = state_;
+  lay_threads();
   const Energies laid = look().energy();
   separate(preparation_.assembly, state_);
   const Momentum free = half_step_momentum(model(), state_);
@@ -213,13 +223,12 @@ void Simulation::close() {
   drop_negative_zeros(state_);
   const Momentum held = half_step_momentum(model(), state_);
   const Energies separated = look().energy();
-  ledger_.book_closing(before, after, laid, separated, state_, before_model, model());
+  ledger_.book_closing(before, old, laid, separated, state_, before_model, model());
   remember();
   threadings_.begin(look(), stepper_->contacts());
   overlaps_.begin(model(), state_, stepper_->contacts(), preparation_.assembly.elements_before,
                   laid.contact - before.contact, look_.energy());
-  ledger_.book_supports(
-      {held.linear - free.linear, Vec3::Zero()});  // the angular part is in book_closing's difference
+  ledger_.book_outside({held.linear - free.linear, Vec3::Zero()});  // angular: as above
   for (const Mechanism& mechanism : scene_.mechanisms)
     events_.push_back({time(), "separation", mechanism.name});
 }

@@ -82,7 +82,8 @@ class Simulation {
   void enter_phase(std::size_t phase);
   void advance_with_threads_that_pay(std::int64_t stop);
   void close();
-  void change_step();
+  void lay_threads();
+  void take_half_step_back();
   void set_back(double steps);
   void check_health();
   void find_faults();

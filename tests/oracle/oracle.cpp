@@ -123,8 +123,12 @@ void Oracle::set_extent() {
   for (const AssemblyBall& ball : assembly_.balls) of_ball_.push_back(candidates(ball.parts, -1));
 }
 
-/// Lays the closing threads along their carriers, with the velocities found there.
+/// Lays the closing threads along their carriers, with the velocities found there: those of half a step back,
+/// or where the step changes of the closing time itself.
 void Oracle::activate() {
+  const double next = scene_.closing.step.value_or(dt_);
+  const bool other = n_ > 0 && next != dt_;
+  if (other) push_by(dt_ / 2);
   activated_ = true;
   last_damper_.clear();
   set_extent();
@@ -135,7 +139,8 @@ void Oracle::activate() {
     at(v_, lay.node) = (1 - lay.s) * at(v_, lay.a) + lay.s * at(v_, lay.b);
   }
   keep_momentum();
-  if (n_ > 0) change_step(scene_.closing.step.value_or(dt_));
+  if (n_ > 0) begin_step(next);
+  if (other) push_by(-dt_ / 2);
   for (const cinch::Lay& lay : assembly_.lays) {
     at(v_, lay.node) += lay.jump;
     if (at(assembly_.nodes, lay.node).support == Support::fixed) at(v_, lay.node).setZero();
@@ -158,12 +163,14 @@ void Oracle::keep_momentum() {
   }
 }
 
-/// v_{n-1/2} to half a step of the new length before x_n.
-void Oracle::change_step(double dt) {
-  if (dt != dt_) {
-    const Evaluation now = evaluate(x_, v_);
-    for (Index i = 0; i < nodes_; ++i) at(v_, i) += (dt_ - dt) / 2 * acceleration(i, at(now.force, i));
-  }
+/// Velocities later by that time, s.
+void Oracle::push_by(double time) {
+  const Evaluation now = evaluate(x_, v_);
+  for (Index i = 0; i < nodes_; ++i) at(v_, i) += time * acceleration(i, at(now.force, i));
+}
+
+/// Steps of another length from now on.
+void Oracle::begin_step(double dt) {
   time_ += static_cast<double>(n_ - since_) * dt_;
   since_ = n_;
   dt_ = dt;

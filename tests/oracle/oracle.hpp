@@ -6,9 +6,9 @@
 // else.
 //
 // Scheme: v_{n+1/2} = v_{n-1/2} + dt a(x_n, v_{n-1/2}), x_{n+1} = x_n + dt v_{n+1/2}, v_{-1/2} = v_0 - dt/2
-// a(x_0, v_0), and likewise where closing.step changes dt. Not read from the scene: automatic steps (a step
-// must be given), equilibrium (start from the assembly's positions), the distance method and the broadphase
-// margin.
+// a(x_0, v_0); where closing.step changes dt, v_n = v_{n-1/2} + dt/2 a(x_n, v_{n-1/2}) and back again. Not
+// read from the scene: automatic steps (a step must be given), equilibrium (start from the assembly's
+// positions), the distance method and the broadphase margin.
 #pragma once
 #include <vector>
 
@@ -88,7 +88,8 @@ class Oracle {
   void set_extent();
   void activate();
   void keep_momentum();
-  void change_step(double dt);
+  void push_by(double time);
+  void begin_step(double dt);
   void integrate(const Evaluation& now);
   void book(const Evaluation& now);
   Vec3 acceleration(Index node, const Vec3& force) const;
