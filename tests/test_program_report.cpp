@@ -60,8 +60,11 @@ TEST_F(Reported, CapturesMadeAgain) {
   simulate("capture", "again", otherwise);
   later.push_back("closing.time_s=1.3");
   simulate("capture", "later", later);
-  ASSERT_EQ(run({"report", "c", "--again", "again", "later", "--table", "table.md"}), 0) << err();
-  EXPECT_EQ(err(), "warning: --again later is left out: no result closes at its time\n");
+  ASSERT_EQ(run({"report", "c", "--again", "again", "later", "c", "--table", "table.md"}), 0) << err();
+  EXPECT_EQ(err(),
+            "warning: --again later is left out: no result closes at its time\n"
+            "warning: --again c is left out: it is one of the results\n");
+  EXPECT_TRUE(has(out(), "median of 2 runs")) << "on the terminal, too: " << out();
   const std::string table = text_of(path("table.md"));
   EXPECT_TRUE(has(table, "median of 2 runs")) << table;
 }

@@ -256,7 +256,8 @@ TEST(Report, Captures_made_again_are_judged_by_their_median) {
   const VerdictRow row = row_over(late, again, "capture.closes_after");
   EXPECT_NEAR(row.here.value_or(0), 0.39, 1e-12) << "of 0.31, 0.36, 0.39, 0.8 and one that stays open";
   EXPECT_EQ(row.verdict, Verdict::reproduced);
-  EXPECT_NE(row.note.find("median of 5 runs, 0.31 s to 0.8 s, 1 without"), std::string::npos) << row.note;
+  EXPECT_NE(row.note.find("median of 5 runs, 0.31 s to 0.8 s, in 1 not by the end"), std::string::npos)
+      << row.note;
   const VerdictRow enclosed = row_over(late, again, "capture.enclosed");
   EXPECT_EQ(enclosed.here, 1);
   EXPECT_NE(enclosed.note.find("median of 5 runs, 0 to 1"), std::string::npos) << enclosed.note;
@@ -264,6 +265,35 @@ TEST(Report, Captures_made_again_are_judged_by_their_median) {
   EXPECT_EQ(few.verdict, Verdict::missing);
   EXPECT_NE(few.note.find("in 1 of 3 runs"), std::string::npos) << few.note;
   EXPECT_EQ(row_over(late, {}, "capture.closes_after").note.find("median"), std::string::npos);
+  EXPECT_NEAR(row_over(late, {closed_after(0.3)}, "capture.closes_after").here.value_or(0), 0.55, 1e-12)
+      << "the mean of two";
+}
+
+TEST(Report, A_run_that_cannot_tell_does_not_count_among_those_made_again) {
+  Digest open = capture(), short_one = capture();
+  open.summary->events.resize(2);
+  short_one.frame_times = {0, 1.6};
+  short_one.summary->events.resize(2);
+  const VerdictRow row =
+      row_over({open}, {short_one, short_one, short_one, capture(), open}, "capture.enclosed");
+  EXPECT_EQ(row.here, 0) << "of 0, 0, 1";
+  EXPECT_NE(row.note.find("median of 3 runs"), std::string::npos) << row.note;
+  Digest untouched = capture();
+  untouched.summary->ring_records[0].first_contact_time = -1;
+  const VerdictRow force = row_over({untouched}, {capture()}, "capture.ring1_force");
+  EXPECT_EQ(force.here, 37) << "no force is not a greater one";
+  EXPECT_EQ(force.note.find("never touched"), std::string::npos) << "of one run alone: " << force.note;
+}
+
+TEST(Report, A_run_has_come_to_the_end_by_the_step_nearest_to_it) {
+  Digest d = capture();
+  d.model.closing_time_step = 6e-6;
+  d.frame_times.back() = 2 - 2.9e-6;
+  EXPECT_EQ(verdict_on({d}, "capture.enclosed"), Verdict::reproduced);
+  d.summary->events.resize(2);
+  EXPECT_EQ(verdict_on({d}, "capture.enclosed"), Verdict::not_reproduced);
+  d.frame_times.back() = 2 - 3.1e-6;
+  EXPECT_EQ(verdict_on({d}, "capture.enclosed"), Verdict::missing);
 }
 
 TEST(Report, How_far_a_capture_gets_is_a_mean_over_those_made_again) {

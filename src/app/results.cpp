@@ -38,15 +38,26 @@ std::vector<Digest> digests_of(const char* option, const std::vector<fs::path>& 
   return digests;
 }
 
-// Of runs that repeat one of the results; others count for nothing.
+// Why a run repeats none of the results; empty where it does.
+std::string no_repeat(const Digest& run, const std::vector<Result>& results) {
+  const auto repeated = [&](const Result& result) { return repeats(run.model, result.model()); };
+  const auto the_same = [&](const Result& result) { return fs::equivalent(run.file, result.path()); };
+  if (run.paper_case != PaperCase::capture) return "only captures are made again";
+  if (std::any_of(results.begin(), results.end(), the_same)) return "it is one of the results";
+  if (std::none_of(results.begin(), results.end(), repeated)) return "no result closes at its time";
+  return "";
+}
+
+// Captures that repeat one of the results.
 std::vector<Digest> repeats_among(const std::vector<fs::path>& paths, const std::vector<Result>& results) {
-  std::vector<Digest> digests = digests_of("--again", paths);
+  std::vector<Digest> all = digests_of("--again", paths), runs;
   for (std::size_t i = 0; i < paths.size(); ++i) {
-    const auto repeated = [&](const Result& result) { return repeats(digests[i].model, result.model()); };
-    if (digests[i].unjudged.empty() && std::none_of(results.begin(), results.end(), repeated))
-      std::cerr << "warning: --again " << paths[i].string() << " is left out: no result closes at its time\n";
+    if (!all[i].unjudged.empty()) continue;
+    const std::string why = no_repeat(all[i], results);
+    if (why.empty()) runs.push_back(std::move(all[i]));
+    else std::cerr << "warning: --again " << paths[i].string() << " is left out: " << why << "\n";
   }
-  return digests;
+  return runs;
 }
 
 }  // namespace
@@ -66,7 +77,7 @@ int report(const ReportArguments& arguments) {
   const std::vector<Digest> again = repeats_among(arguments.again, results);
   write_report(results, html, open_inputs, again);
   if (!arguments.table.empty()) write_paper_table(results, arguments.table, open_inputs, again);
-  for (const Result& result : results) print_verdict(result, std::cout);
+  for (const Result& result : results) print_verdict(result, std::cout, again);
   std::cout << "report: " << html.string() << "\n";
   return 0;
 }

@@ -35,7 +35,11 @@ Measured past_the_end(const Digest& d, double time) {
   return missing(text);
 }
 
-bool reaches(const Digest& d, double time) { return d.end_time() >= time - kInstant; }
+// Runs end at the step nearest to the end that they were given.
+bool reaches(const Digest& d, double time) {
+  const double half_step = 0.5 * std::max(d.model.time_step, d.model.closing_time_step);
+  return d.end_time() >= time - std::max(kInstant, 1.001 * half_step);
+}
 
 std::optional<Peak> peak_force(const Digest& d, int ring, double until) {
   const RingRecord* record = d.record(ring);

@@ -13,6 +13,7 @@ namespace cinch {
 struct Measured {
   std::optional<double> value;
   std::string note;
+  bool late = false;  ///< no value, as what is waited for has not come by the end of the run
 };
 
 namespace measure {

@@ -16,7 +16,7 @@ std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 Measured no_event(const Digest& d, const std::string& what) {
   if (!d.summary) return missing("the run left no summary");
-  return missing(what + " until " + std::to_string(d.end_time()).substr(0, 5) + " s");
+  return {std::nullopt, what + " until " + std::to_string(d.end_time()).substr(0, 5) + " s", true};
 }
 
 // A sample this near the closing time counts neither as before nor as after.
@@ -152,7 +152,7 @@ Measured first_collision_time(const Digest& d, const std::string& ring) {
 Measured first_collision_force(const Digest& d, const std::string& ring) {
   const RingRecord* record = d.record(d.ring(ring));
   if (!record) return missing("no record of ring " + ring);
-  if (record->first_contact_time < 0) return no_event(d, "ring " + ring + " was never touched");
+  if (record->first_contact_time < 0) return missing(no_event(d, "ring " + ring + " was never touched").note);
   return {record->first_contact_force, ""};
 }
 

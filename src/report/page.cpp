@@ -60,7 +60,6 @@ string difference(const VerdictRow& row) {
 }
 
 // Rows of the same number for further results leave out what the first of them says.
-// What stands in the row above is not said again.
 string table_row(const VerdictRow& row, bool several, const VerdictRow* above) {
   const bool again = above != nullptr && above->paper == row.paper;
   string cells =

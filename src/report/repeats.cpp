@@ -8,20 +8,43 @@
 namespace cinch {
 namespace {
 
-std::string words(const std::vector<double>& values, std::size_t runs, std::string_view unit) {
-  std::string text = "median of " + std::to_string(runs) + " runs";
-  const std::string least = html::plain(values.front(), unit), most = html::plain(values.back(), unit);
-  if (least != most) text += ", " + least + " to " + most;
-  if (values.size() < runs) text += ", " + std::to_string(runs - values.size()) + " without";
-  return text;
-}
+// What the runs say of one number.
+struct Sample {
+  std::vector<double> values;  // in order
+  std::size_t late = 0, undecided = 0;
+  std::string note;  // of all runs
+
+  Sample(const std::vector<const Digest*>& runs, const std::function<Measured(const Digest&)>& measure) {
+    for (const Digest* run : runs) {
+      const Measured one = measure(*run);
+      if (one.value) values.push_back(*one.value);
+      else ++(one.late ? late : undecided);
+      if (run == runs.front()) note = one.note;
+      else if (note != one.note) note.clear();
+    }
+    std::sort(values.begin(), values.end());
+  }
+
+  std::size_t decided() const { return values.size() + late; }
+  std::optional<double> median() const {
+    if (2 * values.size() <= decided()) return std::nullopt;
+    const std::size_t upper = decided() / 2;
+    return decided() % 2 == 1 ? values[upper] : 0.5 * (values[upper - 1] + values[upper]);
+  }
+  std::string words(std::string_view unit) const {
+    std::string text = "median of " + std::to_string(decided()) + " runs";
+    const std::string least = html::plain(values.front(), unit), most = html::plain(values.back(), unit);
+    if (least != most) text += ", " + least + " to " + most;
+    if (late > 0) text += ", in " + std::to_string(late) + " not by the end";
+    return text;
+  }
+};
 
 }  // namespace
 
 bool repeats(const ResultModel& one, const ResultModel& other) {
-  const auto &a = one.closing_time, &b = other.closing_time;
-  return a.has_value() == b.has_value() &&
-         std::abs(a.value_or(0) - b.value_or(0)) < measure::same_closing_time;
+  return one.closing_time && other.closing_time &&
+         std::abs(*one.closing_time - *other.closing_time) < measure::same_closing_time;
 }
 
 std::vector<const Digest*> with_repeats(const Digest& run, const std::vector<Digest>& again) {
@@ -33,21 +56,13 @@ std::vector<const Digest*> with_repeats(const Digest& run, const std::vector<Dig
 
 Measured median_over(const std::vector<const Digest*>& runs,
                      const std::function<Measured(const Digest&)>& measure, std::string_view unit) {
-  Measured first = measure(*runs.front());
-  if (runs.size() == 1) return first;
-  std::vector<double> values;
-  for (const Digest* run : runs)
-    if (const Measured one = measure(*run); one.value) values.push_back(*one.value);
-  const std::size_t middle = (runs.size() - 1) / 2;
-  if (values.size() <= middle) {
-    const std::string few =
-        "in " + std::to_string(values.size()) + " of " + std::to_string(runs.size()) + " runs";
-    return {std::nullopt, first.note.empty() ? few : first.note + "; " + few};
-  }
-  std::sort(values.begin(), values.end());
-  first.value = values[middle];
-  first.note += (first.note.empty() ? "" : "; ") + words(values, runs.size(), unit);
-  return first;
+  if (runs.size() == 1) return measure(*runs.front());
+  const Sample sample(runs, measure);
+  const std::optional<double> median = sample.median();
+  const std::string words =
+      median ? sample.words(unit)
+             : "in " + std::to_string(sample.values.size()) + " of " + std::to_string(runs.size()) + " runs";
+  return {median, sample.note.empty() ? words : sample.note + "; " + words};
 }
 
 }  // namespace cinch

@@ -272,7 +272,7 @@ void write_report(const std::vector<Result>& results, const std::filesystem::pat
   replace_text_file(html_file, page::whole(d.model.case_name + " - Cinch", body, plots_json(plots), view));
 }
 
-void print_verdict(const Result& result, std::ostream& out) {
+void print_verdict(const Result& result, std::ostream& out, const std::vector<Digest>& again) {
   const std::vector<Digest> digests = [&] {
     std::vector<Digest> one;
     one.push_back(digest(result));
@@ -284,7 +284,7 @@ void print_verdict(const Result& result, std::ostream& out) {
     std::snprintf(text, sizeof text, "%-26s", fact.what.c_str());
     out << text << value << (fact.aside.empty() ? "" : "  (" + fact.aside + ")") << '\n';
   }
-  const auto rows = compare_with_paper(digests);
+  const auto rows = compare_with_paper(digests, {}, again);
   if (!rows.empty()) out << "\npaper against Cinch\n";
   if (!digests.front().unjudged.empty()) out << "\n" << digests.front().unjudged << "\n";
   for (const VerdictRow& row : rows) {

@@ -23,7 +23,7 @@ void write_report(const std::vector<Result>& results, const std::filesystem::pat
 void write_paper_table(const std::vector<Result>& results, const std::filesystem::path& markdown_file,
                        const Sensitivity& open_inputs = {}, const std::vector<Digest>& again = {});
 
-/// The verdict and the paper's table of one result as plain text, for the terminal.
-void print_verdict(const Result& result, std::ostream& out);
+/// The verdict and the paper's table of one result as plain text, for the terminal; `again` as for a page.
+void print_verdict(const Result& result, std::ostream& out, const std::vector<Digest>& again = {});
 
 }  // namespace cinch

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 #include "report/html.hpp"
 #include "report/measure.hpp"
@@ -196,10 +197,10 @@ class CaptureRows {
     of_each("capture.enclosed", measure::enclosed);
     velocities();
     rings();
-    Results all;
+    std::set<const Digest*> all;  // one may repeat several
     for (const Digest* d : results_)
-      for (const Digest* repeat : with_repeats(*d, again_)) all.push_back(repeat);
-    table_.row("capture.later_further", measure::least_gain_along_z(all));
+      for (const Digest* repeat : with_repeats(*d, again_)) all.insert(repeat);
+    table_.row("capture.later_further", measure::least_gain_along_z({all.begin(), all.end()}));
   }
 
  private:
