@@ -24,16 +24,17 @@ double seconds() {
 // What one run gives before it is compared.
 struct Measured {
   Track track;
-  double step, seconds, residual;
+  double step, closing_step, seconds, residual;
 };
 
 // Run time is that of the steps: samples are taken outside of the clock.
 Measured measure_once(const Problem& problem, const Scene& scene) {
   Simulation sim(scene, 1);
-  Measured out{{}, sim.preparation().timeline.after(), 0, 0};
+  const Timeline& timeline = sim.preparation().timeline;
+  Measured out{{}, timeline.before(), timeline.after(), 0, 0};
   for (int s = 1; s <= problem.samples; ++s) {
     const double begin = seconds();
-    sim.advance_to(sim.preparation().timeline.step_at(problem.end * s / problem.samples));
+    sim.advance_to(timeline.step_at(problem.end * s / problem.samples));
     out.seconds += seconds() - begin;
     out.track.times.push_back(sim.time());
     out.track.samples.push_back(problem.sample(sim));
@@ -56,7 +57,7 @@ Track mean(const std::vector<Track>& tracks) {
 // The runs of one setting.
 struct Sweep {
   std::vector<Track> tracks;
-  double step = 0, seconds = 0, residual = 0;  // medians of the last two
+  double step = 0, closing_step = 0, seconds = 0, residual = 0;  // medians of the last two
 };
 
 double median(std::vector<double> values) {
@@ -92,7 +93,7 @@ Sweep measure(const Problem& problem, const Setting& setting, int timed) {
   std::vector<double> times, residuals;
   for (const Measured& run : runs) {
     sweep.tracks.push_back(run.track);
-    sweep.step = run.step;
+    sweep.step = run.step, sweep.closing_step = run.closing_step;
     residuals.push_back(run.residual);
     if (times.size() < alone) times.push_back(run.seconds);
   }
@@ -155,7 +156,7 @@ RunResult run(const Problem& problem, const Setting& setting, const Track& refer
   try {
     constexpr int timed = 8;
     const Sweep found = measure(problem, setting, timed);
-    result.step = found.step;
+    result.step = found.step, result.closing_step = found.closing_step;
     result.errors = errors_of(problem, found.tracks, reference);
     result.residual = found.residual;
     result.seconds = setting.runs > 1 ? found.seconds : least_seconds(problem, setting, found.seconds);

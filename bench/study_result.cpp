@@ -15,9 +15,13 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 Json run_json(const RunResult& run) {
-  Json json = {{"series", run.setting.series()},      {"method", run.setting.method},
-               {"elements", run.setting.elements},    {"step_s", run.step},
-               {"papers_choice", run.setting.papers}, {"runs", run.setting.runs}};
+  Json json = {{"series", run.setting.series()},
+               {"method", run.setting.method},
+               {"elements", run.setting.elements},
+               {"step_s", run.step},
+               {"closing_step_s", run.closing_step},
+               {"papers_choice", run.setting.papers},
+               {"runs", run.setting.runs}};
   if (!run.good()) {
     json["failure"] = run.failure;
     return json;
@@ -122,14 +126,15 @@ void write(const std::vector<ProblemResult>& results, const std::filesystem::pat
                {"isa", kernels().isa},
                {"problems", Json::array()}};
   std::string csv =
-      "problem,series,method,elements,step_s,papers_choice,error,energy_residual,"
+      "problem,series,method,elements,step_s,closing_step_s,papers_choice,error,energy_residual,"
       "seconds_per_simulated_second,failure\n";
   for (const ProblemResult& result : results) {
     json["problems"].push_back(problem_json(result));
     for (const RunResult& run : result.runs) {
       char numbers[200];
-      std::snprintf(numbers, sizeof numbers, "%d,%.9g,%d,%.9g,%.9g,%.9g", run.setting.elements, run.step,
-                    run.setting.papers, run.good() ? run.error() : NAN, run.residual, run.seconds);
+      std::snprintf(numbers, sizeof numbers, "%d,%.9g,%.9g,%d,%.9g,%.9g,%.9g", run.setting.elements, run.step,
+                    run.closing_step, run.setting.papers, run.good() ? run.error() : NAN, run.residual,
+                    run.seconds);
       csv += result.problem->name + ",\"" + run.setting.series() + "\",\"" + run.setting.method + "\"," +
              numbers + ",\"" + run.failure.substr(0, run.failure.find('"')) + "\"\n";
     }

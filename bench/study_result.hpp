@@ -9,11 +9,11 @@ namespace cinch::study {
 
 struct RunResult {
   Setting setting;
-  double step = 0;      ///< s, as taken
-  Errors errors;        ///< shares of 1
-  double residual = 0;  ///< of the energy ledger, relative
-  double seconds = 0;   ///< of run time for one simulated second
-  std::string failure;  ///< why there is no result; else empty
+  double step = 0, closing_step = 0;  ///< s, as taken before the closing time and from it on
+  Errors errors;                      ///< shares of 1
+  double residual = 0;                ///< of the energy ledger, relative
+  double seconds = 0;                 ///< of run time for one simulated second
+  std::string failure;                ///< why there is no result; else empty
   double error() const { return errors.front().second; }
   double uncertainty() const;  ///< of a mean over several runs, a share of 1; 0 for one run
   bool good() const { return failure.empty(); }

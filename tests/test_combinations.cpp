@@ -176,7 +176,7 @@ time_s = )" + time + "\n",
     return simulation;
   };
   Simulation soon = run("1e-9");
-  const double step = soon.preparation().timeline.after();
+  const double step = soon.preparation().timeline.before();
   Simulation next = run(std::to_string(step));
   EXPECT_EQ(soon.preparation().closing_step, 1);
   EXPECT_EQ(state_hash(soon.state()), state_hash(next.state()));

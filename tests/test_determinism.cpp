@@ -222,8 +222,7 @@ class InstructionSets : public testing::TestWithParam<const char*> {
     std::string command = "CINCH_ISA=" + isa + " '" + CINCH_PROGRAM + "' run '" + case_file(one) +
                           "' --quiet --out '" + out.string() + "' --threads 1";
     for (const Override& set : one.sets) command += " --set '" + set.key + "=" + set.value + "'";
-    command += " --set time.end_s=" +
-               std::to_string(prepare(read(one)).timeline.after() * static_cast<double>(one.steps));
+    command += " --set time.end_s=" + std::to_string(prepare(read(one)).timeline.time_of(one.steps));
     EXPECT_EQ(std::system((command + " > '" + (folder_ / "log").string() + "' 2>&1").c_str()), 0) << command;
     std::ifstream file(out / "summary.json");
     return nlohmann::json::parse(file);

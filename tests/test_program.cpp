@@ -38,6 +38,7 @@ TEST_F(Program, SummaryHoldsEveryField) {
                            "threads",
                            "steps",
                            "time_step",
+                           "closing_time_step",
                            "simulated_seconds",
                            "wall_seconds",
                            "minutes_per_simulated_second",

@@ -59,6 +59,7 @@ ResultModel small_model(int nodes) {
   model.isa = "avx2";
   model.threads = 3;
   model.time_step = 1e-6 / 3;
+  model.closing_time_step = 1e-6 / 7;
   for (int i = 0; i + 1 < nodes; ++i) {
     model.elements.push_back({i + 1, i});
     model.rest_length.push_back(0.1 / (i + 1));
@@ -123,6 +124,7 @@ Summary small_summary() {
   summary.threads = 3;
   summary.steps = 5'000'000'000;
   summary.time_step = 0.1;
+  summary.closing_time_step = 0.3;
   summary.joint_steps = 4;
   summary.simulated_seconds = 1.0 / 3;
   summary.wall_seconds = 7.7;
@@ -187,6 +189,7 @@ TEST(Results, ModelComesBack) {
   EXPECT_EQ(read.isa, model.isa);
   EXPECT_EQ(read.threads, model.threads);
   EXPECT_EQ(read.time_step, model.time_step);
+  EXPECT_EQ(read.closing_time_step, model.closing_time_step);
   EXPECT_EQ(read.closing_time, model.closing_time);
   EXPECT_EQ(read.elements, model.elements);
   EXPECT_EQ(read.rest_length, model.rest_length);

@@ -32,7 +32,7 @@ TEST(Timeline, GoesOnFromTheClosingStep) {
   EXPECT_EQ(timeline.step_at(2.07), 5);
   for (const std::int64_t step : {0, 3, 4, 5, 1000})
     EXPECT_EQ(timeline.step_at(timeline.time_of(step)), step);
-  EXPECT_EQ(timeline.step_at(1e300), 4 + std::int64_t{9'000'000'000'000'000'000}) << "no overflow";
+  EXPECT_EQ(timeline.step_at(1e300), 9'000'000'000'000'000'000) << "no overflow";
 }
 
 TEST(Timeline, WhatIsDueAtIntervalsIsSoAtTheNearestSteps) {

@@ -67,15 +67,13 @@ Problem capture(Extent extent) {
   // shorter steps than what comes from the closing time on.
   constexpr int many = 128, some = 32, few = 8;
   for (const int n : {12, 24}) p.reference.push_back({"sliding", n, 0, 0.2, false, 0, many});
-  for (const int held : {6, 8}) add_series(p.settings, "sliding", {6, 8, 10}, 0.4, held);
-  add_series(p.settings, "sliding", {12}, 0.4, 6);
+  add_series(p.settings, "sliding", {6, 8, 10, 12}, 0.4, 7);
   set_closing_fraction(p.settings, 0.8);
   add_series(p.settings, "sliding", {8, 10, 12}, 0.4, 8);
   for (const double fraction : {0.8, 0.5, 0.4}) add_series(p.settings, "sliding", {12}, fraction, 0);
   set_runs(p.settings, many);
   std::vector<Setting> others;
   add_series(others, "sliding", {8, 18, 24}, 0.4, 0);
-  add_series(others, "sliding", {6}, 0.8, 10);  // as fast as it goes
   set_runs(others, some);
   std::vector<Setting> slow;
   add_papers_step(slow, papers_rules, {240}, {240});

@@ -26,12 +26,15 @@ class Timeline {
   /// The step nearest to a time; 9e18 for what lies further ahead than can be counted.
   std::int64_t step_at(double time) const {
     if (time <= closing_time()) return nearest(time / before_);
-    return closing_ + nearest((time - closing_time()) / after_);
+    return closing_ + std::min(nearest((time - closing_time()) / after_), most - closing_);
   }
 
  private:
   double closing_time() const { return static_cast<double>(closing_) * before_; }
-  static std::int64_t nearest(double steps) { return std::llround(std::min(steps, 9e18)); }
+  static constexpr std::int64_t most = 9'000'000'000'000'000'000;
+  static std::int64_t nearest(double steps) {
+    return std::llround(std::min(steps, static_cast<double>(most)));
+  }
 
   double before_ = 0, after_ = 0;
   std::int64_t closing_ = 0;  ///< 0: one length; the sums above are plain products then

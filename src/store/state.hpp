@@ -22,10 +22,11 @@ struct HeldLoads {
 };
 
 struct State {
-  std::int64_t step = 0;  ///< positions are those of time step * dt, velocities of half a step earlier
+  std::int64_t step =
+      0;  ///< positions are those of its time (plan/timeline.hpp), velocities of half a step earlier
 
   AlignedVector<double> x, y, z;     ///< node, m
-  AlignedVector<double> vx, vy, vz;  ///< node, m/s, at (step - 1/2) dt
+  AlignedVector<double> vx, vy, vz;  ///< node, m/s, half a step earlier
 
   AlignedVector<double> dissipated;      ///< ledger row x lanes, W: damper power summed over the steps
   std::vector<kernel::RingTally> rings;  ///< ring

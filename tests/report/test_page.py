@@ -134,7 +134,8 @@ class Page(unittest.TestCase):
         text = (page or cls.page).replace("<head>", "<head>" + NOTE_ERRORS, 1)
         copy.write_text(text.replace("</body>", LOOK + "</body>"), encoding="utf-8")
         done = subprocess.run(
-            [str(CHROMIUM), "--headless", "--no-sandbox", "--disable-dev-shm-usage", "--use-angle=swiftshader", "--enable-unsafe-swiftshader",
+            [str(CHROMIUM), "--headless", "--no-sandbox", "--disable-dev-shm-usage", "--use-angle=swiftshader",
+             "--enable-unsafe-swiftshader",
              f"--user-data-dir={cls.folder / 'profile'}", "--window-size=1280,1000", "--virtual-time-budget=20000",
              f"--blink-settings=preferredColorScheme={0 if dark else 1}", "--dump-dom", copy.as_uri()],
             capture_output=True, text=True, timeout=300, check=False)

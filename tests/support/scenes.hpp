@@ -62,7 +62,7 @@ inline void run_until(Simulation& sim, double time) {
   sim.advance_to(sim.preparation().timeline.step_at(time));
 }
 
-inline double step_of(const Simulation& sim) { return sim.preparation().timeline.after(); }
+inline double step_of(const Simulation& sim) { return sim.stepper().plan().dt; }
 
 inline double circle(double diameter) { return std::numbers::pi / 4 * diameter * diameter; }
 
