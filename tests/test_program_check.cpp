@@ -163,6 +163,23 @@ TEST_F(Doubtful, AClosingThreadFarTooShortIsToldOf) {
   EXPECT_TRUE(has(err(), "warning: closing thread 'c'")) << err();
 }
 
+TEST_F(Doubtful, StepsBeforeAndFromTheClosingTimeOnAreTold) {
+  const std::vector<std::string> words{"check", std::string(CINCH_SOURCE_DIR) + "/cases/capture.toml",
+                                       "--set", "case.method=sliding",
+                                       "--set", "time.step_s=2e-6",
+                                       "--set", "closing.safety=0.5"};
+  ASSERT_EQ(run(words), 0) << err();
+  EXPECT_TRUE(
+      has(out(), "\nstep             2e-06 s (given, 0.23 of the stable step), 750000 steps to 1.5 s\n"))
+      << out();
+  EXPECT_TRUE(has(out(), " s (automatic, 0.5 of the stable step), ")) << out();
+  std::vector<std::string> open = words;
+  open.insert(open.end(), {"--set", "time.end_s=1"});
+  ASSERT_EQ(run(open), 0) << err();
+  EXPECT_TRUE(has(out(), " 500000 steps to 1 s\n")) << out();
+  EXPECT_FALSE(has(out(), "(automatic")) << "what comes after the end has none: " << out();
+}
+
 TEST_F(Doubtful, AnAutomaticJointThatNoThreadPassesIsToldOf) {
   std::string text = with("joint = \"contact\"\n", "");
   text.replace(text.find("0.0069"), 6, "0.0200");

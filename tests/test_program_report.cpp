@@ -69,6 +69,18 @@ TEST_F(Reported, CapturesMadeAgain) {
   EXPECT_TRUE(has(table, "median of 2 runs")) << table;
 }
 
+TEST_F(Reported, StepsBeforeAndFromTheClosingTimeOn) {
+  simulate("capture", "c",
+           {"case.method=sliding", "time.step_s=4e-6", "closing.step_s=2e-6", "closing.time_s=0.01",
+            "time.end_s=0.02", "output.frame_interval_s=0.01"});
+  ASSERT_EQ(run({"info", "c"}), 0) << err();
+  EXPECT_TRUE(has(out(), "7500, of 4e-06 s before closing and 2e-06 s from then on, 0.02 s simulated"))
+      << out();
+  ASSERT_EQ(run({"report", "c"}), 0) << err();
+  EXPECT_TRUE(has(text_of(path("c/report.html")), "step before closing"));
+  EXPECT_EQ(run({"compare", "c", "c"}), 0) << out();
+}
+
 TEST_F(Reported, AnotherSceneIsNotJudgedByThePapersNumbers) {
   simulate("ring_pull", "r", {"time.end_s=0.01", "thread.main.start.mass_kg=5"});
   ASSERT_EQ(run({"report", "r", "--table", "table.md", "--open", "r"}), 0) << err();
