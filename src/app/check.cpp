@@ -60,7 +60,7 @@ void print_steps(const Preparation& p) {
   for (const Phase& phase : p.phases) {
     const bool last = &phase == &p.phases.back();
     const std::int64_t end = last ? p.end_step : std::min(p.closing_step, p.end_step);
-    if (last && begin > end) break;
+    if (begin > 0 && begin >= end) break;  // it closes after the end
     std::printf("%-16s %.4g s (%s, %.2g of the stable step), %lld steps to %g s\n", label, phase.plan.dt,
                 phase.step_given ? "given" : "automatic", phase.plan.dt / phase.bound.step,
                 static_cast<long long>(end - begin), p.timeline.time_of(end));
