@@ -73,8 +73,9 @@ def _row(problem: Problem, run: dict[str, Any]) -> Row:
 def _caption(problem: Problem) -> str:
     """What the error is, and the fastest setting for each wanted one."""
     best = "; ".join(_best(problem, wanted["error"]) for wanted in problem["best"])
-    accounted = "; ".join(_best(problem, wanted["error"], SMALL_RESIDUAL)
-                          for wanted in problem.get("best_of_small_residual", []))  # older files have none
+    others = [wanted["error"] for wanted in problem.get("best_of_small_residual", [])  # older files have none
+              if best_within(problem, wanted["error"]) != best_within(problem, wanted["error"], SMALL_RESIDUAL)]
+    accounted = "; ".join(_best(problem, error, SMALL_RESIDUAL) for error in others)
     if accounted:
         best += f". Among those with an energy residual of {SMALL_RESIDUAL:g} at most: {accounted}"
     runs = max(run["runs"] for run in problem["runs"])  # more than one where a problem is chaotic
