@@ -29,20 +29,26 @@ void keep_momentum(const Model& after, const Assembly& assembly, State& state) {
   }
 }
 
-// Threads that slide through rings already have the same joints in both models. What their dampers have taken
-// is booked with all of the phase before; their last forces are as unknown as those of elements.
+// As they stood before. What dampers have taken is booked with all of the phase before; their last forces are
+// as unknown as those of elements.
+void keep_joint(const kernel::JointState& before, kernel::JointState& joint) {
+  joint = before;
+  joint.dissipated = joint.due = 0;
+  joint.rings = 0;
+  joint.last_length = joint.last_straight = -1;
+}
+
+// Threads that slide through rings already go on doing so; some may get further rings, on what is laid.
 void keep_joints(const Model& model_before, const Model& model_after, const State& before, State& state) {
   for (std::size_t t = 0; t < model_before.sliding_threads.size(); ++t) {
     const auto& first = model_after.sliding_first;
-    const auto found = std::find(first.begin(), first.end(), model_before.sliding_first[t]);
+    const auto same = std::find(first.begin(), first.end(), model_before.sliding_first[t]) - first.begin();
     const kernel::SlidingThread &from = model_before.sliding_threads[t],
-                                &to = model_after.sliding_threads[at(Index(found - first.begin()))];
-    for (Index j = 0; j < from.joint_end - from.joint_begin; ++j) {
-      kernel::JointState& joint = state.joints[at(to.joint_begin + j)];
-      joint = before.joints[at(from.joint_begin + j)];
-      joint.dissipated = joint.due = 0;
-      joint.rings = 0;
-      joint.last_length = joint.last_straight = -1;
+                                &to = model_after.sliding_threads[static_cast<std::size_t>(same)];
+    Index j = to.joint_begin;
+    for (Index old = from.joint_begin; old < from.joint_end; ++old, ++j) {
+      while (model_after.joints[at(j)].ring != model_before.joints[at(old)].ring) ++j;
+      keep_joint(before.joints[at(old)], state.joints[at(j)]);
     }
   }
 }
