@@ -1,46 +1,24 @@
 """The page in a browser: every curve and bar is there to be seen, in light and in dark.
 
-A script added to a copy of the page counts the pixels of each dataset's colour inside its chart and writes the counts
-into the page, which Chromium prints. Charts that are emptied on purpose show that the test would notice.
+A script added to the page counts the pixels of each dataset's colour inside its chart. Charts that are emptied on purpose show that the test would notice.
 """
 from __future__ import annotations
 
-import json
-import re
-import shutil
-import subprocess
+import sys
 import tempfile
 import unittest
-from html import unescape
 from pathlib import Path
 from typing import Any
 
+sys.path.insert(0, str(Path(__file__).parents[1] / "support"))
+import browser
 import sample
-
-CHROMIUM = shutil.which("chromium") or shutil.which("chromium-browser") or shutil.which("google-chrome")
-LEAST_PIXELS = 25  # fewer could be the edge of a neighbour
-
-NOTE_ERRORS = """<script>
-window.pageErrors = [];
-window.addEventListener('error', event => window.pageErrors.push(event.message));
-</script>"""
 
 # Pixels count when colour and opacity fit: bands have the colour of their curve, but let the paper through.
 COUNT_PIXELS = """<script>
-function rgba(colour) {
-  const context = document.createElement('canvas').getContext('2d');
-  context.fillStyle = colour;
-  context.fillRect(0, 0, 1, 1);
-  return [...context.getImageData(0, 0, 1, 1).data];
-}
-function count(chart, colour) {
+function inside(chart, colour) {
   const {left, top, width, height} = chart.chartArea, scale = chart.currentDevicePixelRatio;
-  const {data} = chart.ctx.getImageData(left * scale, top * scale, width * scale, height * scale);
-  let pixels = 0;
-  for (let i = 0; i < data.length; i += 4) {
-    if (colour.every((value, k) => Math.abs(data[i + k] - value) <= 12)) pixels++;
-  }
-  return pixels;
+  return count(chart.ctx, left * scale, top * scale, width * scale, height * scale, colour);
 }
 function look() {
   const seen = [];
@@ -48,14 +26,10 @@ function look() {
     const chart = Chart.getChart(canvas), title = canvas.getAttribute('aria-label');
     if (!chart || !chart.data.datasets.length) seen.push([title, 'no chart', 0]);
     else for (const set of chart.data.datasets) {
-      if (set.label) seen.push([title, set.label, count(chart, rgba(set.backgroundColor))]);
+      if (set.label) seen.push([title, set.label, inside(chart, set.backgroundColor)]);
     }
   }
-  const dark = matchMedia('(prefers-color-scheme: dark)').matches;
-  const verdict = document.createElement('pre');
-  verdict.id = 'verdict';
-  verdict.textContent = JSON.stringify({seen, dark, errors: window.pageErrors});
-  document.body.append(verdict);
+  tell({seen});
 }
 window.addEventListener('load', () => setTimeout(look, 500));
 </script>"""
@@ -72,7 +46,7 @@ wiped.getContext('2d').clearRect(0, 0, wiped.width, wiped.height);
 </script>"""
 
 
-@unittest.skipUnless(CHROMIUM, "no browser; to have one: apt-get install chromium")
+@unittest.skipUnless(browser.CHROMIUM, browser.NEEDED)
 class Browser(unittest.TestCase):
     folder: Path
     page: str
@@ -86,24 +60,10 @@ class Browser(unittest.TestCase):
 
     def look(self, sabotage: str = "", dark: bool = False) -> dict[str, Any]:
         """What a browser sees of the page."""
-        copy = self.folder / "copy.html"
-        text = self.page.replace("<head>", "<head>" + NOTE_ERRORS, 1)
-        copy.write_text(text.replace("</body>", sabotage + COUNT_PIXELS + "</body>"), encoding="utf-8")
-        done = subprocess.run(
-            [str(CHROMIUM), "--headless", "--no-sandbox", "--disable-gpu", "--disable-dev-shm-usage",
-             f"--user-data-dir={self.folder / 'profile'}", "--window-size=1280,1000", "--virtual-time-budget=5000",
-             f"--blink-settings=preferredColorScheme={0 if dark else 1}", "--dump-dom", copy.as_uri()],
-            capture_output=True, text=True, timeout=300, check=False)
-        found = re.search(r'<pre id="verdict">(.*?)</pre>', done.stdout, re.DOTALL)
-        if not found:
-            self.fail(f"the browser printed no verdict:\n{done.stderr[-2000:]}")
-        verdict: dict[str, Any] = json.loads(unescape(found[1]))
-        self.assertEqual(verdict["errors"], [])
-        self.assertEqual(verdict["dark"], dark)
-        return verdict
+        return browser.visit(self.page, sabotage + COUNT_PIXELS, self.folder, ["--disable-gpu"], dark)
 
     def unseen(self, verdict: dict[str, Any]) -> list[tuple[str, str]]:
-        return [(title, label) for title, label, pixels in verdict["seen"] if pixels < LEAST_PIXELS]
+        return [(title, label) for title, label, pixels in verdict["seen"] if pixels < browser.LEAST_PIXELS]
 
     def test_every_curve_is_seen(self) -> None:
         for dark in (False, True):

@@ -1,39 +1,24 @@
 """The report of a capture in a browser: its curves are there to be seen, its net moves and turns, in light and in dark.
 
-A script added to a copy of the page looks at charts and net as a reader would, works the controls, and writes what it
-has seen into the page, which Chromium prints.
+A script added to the page looks at charts and net as a reader would, works the controls, and tells what it has seen.
 """
 from __future__ import annotations
 
-import json
 import os
-import re
-import shutil
 import subprocess
+import sys
 import tempfile
 import unittest
-from html import unescape
 from pathlib import Path
 from typing import Any
 
+sys.path.insert(0, str(Path(__file__).parents[1] / "support"))
+import browser
+
 PROGRAM = os.environ.get("CINCH_PROGRAM")
 CASE = Path(__file__).parents[2] / "cases" / "capture.toml"
-CHROMIUM = shutil.which("chromium") or shutil.which("chromium-browser") or shutil.which("google-chrome")
-LEAST_PIXELS = 25
-
-NOTE_ERRORS = """<script>
-window.pageErrors = [];
-window.addEventListener('error', event => window.pageErrors.push(event.message));
-window.addEventListener('unhandledrejection', event => window.pageErrors.push(String(event.reason)));
-</script>"""
 
 LOOK = """<script>
-function rgba(colour) {
-  const context = document.createElement('canvas').getContext('2d');
-  context.fillStyle = colour;
-  context.fillRect(0, 0, 1, 1);
-  return [...context.getImageData(0, 0, 1, 1).data];
-}
 function charts() {
   const seen = [];
   for (const canvas of document.querySelectorAll('canvas[data-plot]')) {
@@ -42,10 +27,7 @@ function charts() {
     for (const set of chart.data.datasets) {  // each alone: others may lie on it
       chart.data.datasets.forEach(other => { other.hidden = other !== set; });
       chart.update('none');
-      const {data} = chart.ctx.getImageData(0, 0, canvas.width, canvas.height), colour = rgba(set.borderColor);
-      let pixels = 0;
-      for (let i = 0; i < data.length; i += 4)
-        if (colour.every((value, k) => Math.abs(data[i + k] - value) <= 12)) pixels++;
+      const pixels = count(chart.ctx, 0, 0, canvas.width, canvas.height, set.borderColor);
       seen.push([title, set.label, set.data.some(point => point.y !== null) ? pixels : -1]);
     }
   }
@@ -73,7 +55,7 @@ function net() {
 }
 const wait = milliseconds => new Promise(resolve => setTimeout(resolve, milliseconds));
 async function look() {
-  const seen = {charts: charts(), dark: matchMedia('(prefers-color-scheme: dark)').matches};
+  const seen = {charts: charts()};
   const canvas = document.querySelector('#view canvas'), slider = document.getElementById('view-time');
   seen.last = await net();
   slider.value = 0;
@@ -94,18 +76,14 @@ async function look() {
   button.click();
   seen.stopped = button.textContent;
   seen.gaps = [...document.querySelectorAll('#view .gap')].filter(gap => !gap.hidden).map(gap => gap.textContent);
-  seen.errors = window.pageErrors;
-  const verdict = document.createElement('pre');
-  verdict.id = 'verdict';
-  verdict.textContent = JSON.stringify(seen);
-  document.body.append(verdict);
+  tell(seen);
 }
 window.addEventListener('load', () => setTimeout(look, 500));
 </script>"""
 
 
 @unittest.skipUnless(PROGRAM, "CINCH_PROGRAM names the program")
-@unittest.skipUnless(CHROMIUM, "no browser; to have one: apt-get install chromium")
+@unittest.skipUnless(browser.CHROMIUM, browser.NEEDED)
 class Page(unittest.TestCase):
     folder: Path
     page: str
@@ -129,29 +107,15 @@ class Page(unittest.TestCase):
 
     @classmethod
     def look(cls, dark: bool = False, page: str = "") -> dict[str, Any]:
-        """What a browser sees of the page."""
-        copy = cls.folder / "copy.html"
-        text = (page or cls.page).replace("<head>", "<head>" + NOTE_ERRORS, 1)
-        copy.write_text(text.replace("</body>", LOOK + "</body>"), encoding="utf-8")
-        done = subprocess.run(
-            [str(CHROMIUM), "--headless", "--no-sandbox", "--disable-dev-shm-usage", "--use-angle=swiftshader",
-             "--enable-unsafe-swiftshader",
-             f"--user-data-dir={cls.folder / 'profile'}", "--window-size=1280,1000", "--virtual-time-budget=20000",
-             f"--blink-settings=preferredColorScheme={0 if dark else 1}", "--dump-dom", copy.as_uri()],
-            capture_output=True, text=True, timeout=300, check=False)
-        found = re.search(r'<pre id="verdict">(.*?)</pre>', done.stdout, re.DOTALL)
-        if not found:
-            raise AssertionError(f"the browser printed no verdict:\n{done.stderr[-2000:]}")
-        seen: dict[str, Any] = json.loads(unescape(found[1]))
-        if seen["errors"] or seen["dark"] != dark:
-            raise AssertionError(f"{seen['errors']}, dark: {seen['dark']}")
-        return seen
+        """What a browser sees of the page, drawn by the processor: WebGL wants no graphics card then."""
+        return browser.visit(page or cls.page, LOOK, cls.folder,
+                             ["--use-angle=swiftshader", "--enable-unsafe-swiftshader"], dark)
 
     def test_curves_are_seen(self) -> None:
         for seen in (self.bright, self.look(dark=True)):
             titles = {title for title, _, _ in seen["charts"]}
             self.assertGreaterEqual(len(titles), 6, titles)
-            unseen = [(title, label) for title, label, pixels in seen["charts"] if 0 <= pixels < LEAST_PIXELS]
+            unseen = [(title, label) for title, label, pixels in seen["charts"] if 0 <= pixels < browser.LEAST_PIXELS]
             self.assertEqual(unseen, [])
 
     def test_the_net_moves_and_turns(self) -> None:
