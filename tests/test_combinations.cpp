@@ -54,20 +54,26 @@ Simulation simulate(const std::string& text, double until) {
   return simulation;
 }
 
-TEST(Combinations, ARingHoldsItsThreadBeforeSomethingElseCloses) {
-  const std::string hung = material + "[gravity]\nacceleration_m_s2 = [0, 0, -9.81]\n" + ring + R"([thread.a]
+// A thread over a ring, with 100 g on one side.
+std::string hung_over(const std::string& over, int elements, const std::string& other_mass_kg) {
+  return material + "[gravity]\nacceleration_m_s2 = [0, 0, -9.81]\n" + over + R"([thread.a]
 material = "t"
 diameter_m = 0.001
-elements = 100
 points_m = [[-0.2, 0, -0.05], [0, 0, 0], [0.2, 0, -0.05]]
 start = { mass_kg = 0.1 }
-end = { mass_kg = 0.1 }
-)";
-  Simulation alone = simulate(hung, 0.1);
-  Simulation beside = simulate(hung + net + "[closing]\ntime_s = 0.05\n" +
-                                   "[thread.k]\nmaterial = \"t\"\ndiameter_m = 0.001\nelements = 10\n"
-                                   "along = [\"net.main.top\"]\n",
-                               0.1);
+elements = )" +
+         std::to_string(elements) + "\nend = { mass_kg = " + other_mass_kg + " }\n";
+}
+
+// Far away from it a net closes.
+std::string closing_net(const std::string& time_s) {
+  return net + "[closing]\ntime_s = " + time_s +
+         "\n[thread.k]\nmaterial = \"t\"\ndiameter_m = 0.001\nelements = 10\nalong = [\"net.main.top\"]\n";
+}
+
+TEST(Combinations, ARingHoldsItsThreadBeforeSomethingElseCloses) {
+  const std::string hung = hung_over(ring, 100, "0.1");
+  Simulation alone = simulate(hung, 0.1), beside = simulate(hung + closing_net("0.05"), 0.1);
   const RingRecord one = alone.summary().ring_records[0], other = beside.summary().ring_records[0];
   ASSERT_GT(one.peak_force, 1);
   EXPECT_LT(one.first_contact_time, 0.05);  // before the closing time of the other scene
@@ -75,24 +81,12 @@ end = { mass_kg = 0.1 }
   EXPECT_NEAR(other.peak_force, one.peak_force, 0.05 * one.peak_force);
 }
 
-// Its joint goes on where it is: the ball has passed nodes by then.
+// Its joint goes on where it is: nodes have passed the ring by then.
 TEST(Combinations, AThreadGoesOnSlidingWhileSomethingElseCloses) {
   std::string sliding = ring;
   sliding.replace(sliding.find("contact"), 7, "sliding");
-  const std::string hung =
-      material + "[gravity]\nacceleration_m_s2 = [0, 0, -9.81]\n" + sliding + R"([thread.a]
-material = "t"
-diameter_m = 0.001
-elements = 20
-points_m = [[-0.2, 0, -0.05], [0, 0, 0], [0.2, 0, -0.05]]
-start = { mass_kg = 0.1 }
-end = { mass_kg = 0.3 }
-)";
-  Simulation alone = simulate(hung, 0.15);
-  Simulation beside = simulate(hung + net + "[closing]\ntime_s = 0.12\n" +
-                                   "[thread.k]\nmaterial = \"t\"\ndiameter_m = 0.001\nelements = 10\n"
-                                   "along = [\"net.main.top\"]\n",
-                               0.15);
+  const std::string hung = hung_over(sliding, 20, "0.3");
+  Simulation alone = simulate(hung, 0.15), beside = simulate(hung + closing_net("0.12"), 0.15);
   ASSERT_TRUE(beside.closed_phase());
   const Preparation& p = alone.preparation();
   const Index heavy = p.assembly.node_of("thread.a.end"),

@@ -10,6 +10,7 @@
 #include "study/error_estimate.hpp"
 #include "study/picture.hpp"
 #include "study/run_track.hpp"
+#include "support/quick_cases.hpp"
 #include "support/scenes.hpp"
 
 namespace {
@@ -178,6 +179,23 @@ TEST(ErrorEstimate, ComparesTheRunsThatItNames) {
   const ErrorEstimate::Row row = row_of(estimate_error(scene, {1, 1}, quietly), "end");
   EXPECT_DOUBLE_EQ(row.difference[ErrorEstimate::of_step], apart(own, by_step, 0));
   EXPECT_DOUBLE_EQ(row.difference[ErrorEstimate::of_threads], apart(by_step, by_threads, 0));
+}
+
+TEST(ErrorEstimate, HalvesTheStepsOfAClosingToo) {
+  Scene scene = read(capture_in_two_steps());
+  scene.time.end = 0.002;
+  scene.output.frame_interval = scene.output.probe_interval = 0.0005;
+  Scene half = scene;
+  half.time.step /= 2;
+  half.closing.step = 0.5 * *scene.closing.step;
+  const RunTrack own = follow(scene, 1), by_step = follow(half, 1);
+  const ErrorEstimate estimate = estimate_error(scene, {1, 1}, quietly);
+  double sum = 0, nodes = 0;
+  for (std::size_t part = 0; part < own.nodes.size(); ++part)
+    for (std::size_t n = 0; n < own.nodes[part].size(); ++n, ++nodes)
+      sum += (own.nodes[part][n] - by_step.nodes[part][n]).squaredNorm();
+  EXPECT_GT(sum, 0);
+  EXPECT_DOUBLE_EQ(row_of(estimate, "all nodes").difference[ErrorEstimate::of_step], std::sqrt(sum / nodes));
 }
 
 TEST(ErrorEstimate, HasARowForEachQuantityAndOneForAllNodes) {

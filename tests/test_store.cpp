@@ -145,46 +145,36 @@ TEST(Masses, BeforeTheClosingTimeThreadsOfAnyNumberOfElementsLoadANetAlike) {
   }
 }
 
-// Ends on the net, and what lies beyond the carrier.
+// Ends on the net, and what lies beyond the carrier; without the thread the net weighs what it weighs.
 TEST(Masses, BeforeTheClosingTimeWithOverhangsAndSharedNodes) {
-  const auto assembled = [](const std::string& rest) {
-    return assemble(parse_case(R"(schema = 1
-[time]
-end_s = 1
-[closing]
-time_s = 0.5
-[material.m]
-youngs_modulus_Pa = 1e9
-density_kg_m3 = 1000
-[net.main]
-material = "m"
-diameter_m = 0.002
-size_m = [0.4, 0.4]
-mesh_m = 0.1
-[thread.c]
-material = "m"
-diameter_m = 0.002
-along = ["net.main.top"]
-)" + rest,
-                               "overhang.toml"));
+  Scene scene = read("capture");
+  scene.threads.resize(1);
+  Thread& thread = scene.threads.front();
+  thread.along = {"net.main.top"};
+  thread.start = thread.end = {};
+  thread.length = 0;
+  Scene bare = scene;
+  bare.threads.clear();
+  const Assembly net = assemble(bare);
+  const auto metres = [&](const Assembly& a, const std::string& place) {  // of thread on a knot
+    const Index knot = a.node_of("net.main." + place);
+    return (a.nodes[at(knot)].mass_before - net.nodes[at(knot)].mass_before) / (200 * closing_element);
   };
-  const double mass_per_m = 1000 * std::numbers::pi * 1e-6;
-  const auto weighs = [&](const Assembly& a, const char* place) {
-    const AssemblyNode& node = a.nodes[at(a.node_of(std::string("net.main.") + place))];
-    const bool corner = std::string(place).starts_with("top_");
-    return node.mass_before / mass_per_m - (corner ? 0.1 : 0.15);
-  };
-  const Assembly over = assembled("elements = 3\noverhang_start_m = 0.03\noverhang_end_m = 0.07\n");
-  EXPECT_NEAR(weighs(over, "top_left"), 0.05 + 0.03, 1e-12);
-  EXPECT_NEAR(weighs(over, "knot.2.4"), 0.1, 1e-12);
-  EXPECT_NEAR(weighs(over, "top_right"), 0.05 + 0.07, 1e-12);
-  const Assembly shared = assembled(R"(elements = 2
-start = { on = "net.main.top_left" }
-end = { on = "net.main.top_right" }
-)");
-  EXPECT_NEAR(weighs(shared, "top_left"), 0.05, 1e-12);
-  EXPECT_NEAR(weighs(shared, "knot.1.4"), 0.1, 1e-12);
-  EXPECT_NEAR(shared.nodes[at(shared.node_of("net.main.top_left"))].mass / mass_per_m, 0.1 + 0.1, 1e-12)
+  thread.elements = 3;
+  thread.overhang_start = 0.03, thread.overhang_end = 0.07;
+  const Assembly over = assemble(scene);
+  EXPECT_NEAR(metres(over, "top_left"), 0.05 + 0.03, 1e-9);
+  EXPECT_NEAR(metres(over, "knot.4.10"), 0.1, 1e-9);
+  EXPECT_NEAR(metres(over, "top_right"), 0.05 + 0.07, 1e-9);
+  thread.elements = 2;
+  thread.overhang_start = thread.overhang_end = 0;
+  thread.start.on = "net.main.top_left", thread.end.on = "net.main.top_right";
+  const Assembly shared = assemble(scene);
+  EXPECT_NEAR(metres(shared, "top_left"), 0.05, 1e-9);
+  EXPECT_NEAR(metres(shared, "knot.4.10"), 0.1, 1e-9);
+  const Index corner = shared.node_of("net.main.top_left");
+  EXPECT_NEAR((shared.nodes[at(corner)].mass - net.nodes[at(corner)].mass) / (200 * closing_element), 0.25,
+              1e-9)
       << "half an element from the closing time on";
 }
 

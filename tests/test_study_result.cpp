@@ -44,6 +44,19 @@ TEST(StudyResult, ASeriesTellsBothSteps) {
   EXPECT_EQ(setting.series(), "sliding, 0.4 of the stable step, forces held for 6 steps");
 }
 
+TEST(StudyResult, ASettingsStepsAreTheScenes) {
+  const Problem problem = capture(Extent::trial);
+  const auto shares = [&](const Setting& setting) {
+    const cinch::Preparation p = prepare(problem.scene(setting));
+    return std::pair(p.phases[0].plan.dt / p.phases[0].bound.step,
+                     p.phases[1].plan.dt / p.phases[1].bound.step);
+  };
+  const auto [flight, closing] = shares({"sliding", 8, 0, 0.4, false, 1, 1, 0.8});
+  EXPECT_NEAR(flight, 0.4, 1e-12);
+  EXPECT_NEAR(closing, 0.8, 1e-12);
+  EXPECT_NEAR(shares({"sliding", 8, 0, 0.3, false, 1, 1}).second, 0.3, 1e-12);
+}
+
 TEST(StudyResult, AMeanIsNearerThanWhatItIsOf) {
   EXPECT_DOUBLE_EQ(error_of_mean(0.3, 10), 0.1);
   EXPECT_EQ(error_of_mean(0.3, 2), 0.3);

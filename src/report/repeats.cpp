@@ -11,14 +11,14 @@ namespace {
 // What the runs say of one number.
 struct Sample {
   std::vector<double> values;  // in order
-  std::size_t late = 0, undecided = 0;
+  std::size_t late = 0;
   std::string note;  // of all runs
 
   Sample(const std::vector<const Digest*>& runs, const std::function<Measured(const Digest&)>& measure) {
     for (const Digest* run : runs) {
       const Measured one = measure(*run);
       if (one.value) values.push_back(*one.value);
-      else ++(one.late ? late : undecided);
+      else if (one.late) ++late;
       if (run == runs.front()) note = one.note;
       else if (note != one.note) note.clear();
     }
