@@ -70,15 +70,19 @@ TEST_F(Reported, CapturesMadeAgain) {
 }
 
 TEST_F(Reported, StepsBeforeAndFromTheClosingTimeOn) {
-  simulate("capture", "c",
-           {"case.method=sliding", "time.step_s=4e-6", "closing.step_s=2e-6", "closing.time_s=0.01",
-            "time.end_s=0.02", "output.frame_interval_s=0.01"});
+  std::vector<std::string> sets{"case.method=sliding", "time.step_s=1e-6", "closing.time_s=0.001",
+                                "time.end_s=0.002", "output.frame_interval_s=1e-4"};
+  simulate("capture", "even", sets);
+  sets.push_back("closing.step_s=3.5e-6");
+  simulate("capture", "c", sets);
   ASSERT_EQ(run({"info", "c"}), 0) << err();
-  EXPECT_TRUE(has(out(), "7500, of 4e-06 s before closing and 2e-06 s from then on, 0.02 s simulated"))
+  EXPECT_TRUE(has(out(), "1286, of 1e-06 s before closing and 3.5e-06 s from then on, 0.002001 s simulated"))
       << out();
   ASSERT_EQ(run({"report", "c"}), 0) << err();
   EXPECT_TRUE(has(text_of(path("c/report.html")), "step before closing"));
   EXPECT_EQ(run({"compare", "c", "c"}), 0) << out();
+  run({"compare", "even", "c"});
+  EXPECT_FALSE(has(out(), "without partner")) << "frames lie up to 1.75e-6 s beside each other: " << out();
 }
 
 TEST_F(Reported, AnotherSceneIsNotJudgedByThePapersNumbers) {

@@ -38,18 +38,16 @@ void keep_joint(const kernel::JointState& before, kernel::JointState& joint) {
   joint.last_length = joint.last_straight = -1;
 }
 
-// Threads that slide through rings already go on doing so; some may get further rings, on what is laid.
+// Threads that slide through rings already have the same joints in both models: no ring lies on a closing
+// thread.
 void keep_joints(const Model& model_before, const Model& model_after, const State& before, State& state) {
   for (std::size_t t = 0; t < model_before.sliding_threads.size(); ++t) {
     const auto& first = model_after.sliding_first;
     const auto same = std::find(first.begin(), first.end(), model_before.sliding_first[t]) - first.begin();
-    const kernel::SlidingThread &from = model_before.sliding_threads[t],
-                                &to = model_after.sliding_threads[static_cast<std::size_t>(same)];
-    Index j = to.joint_begin;
-    for (Index old = from.joint_begin; old < from.joint_end; ++old, ++j) {
-      while (model_after.joints[at(j)].ring != model_before.joints[at(old)].ring) ++j;
-      keep_joint(before.joints[at(old)], state.joints[at(j)]);
-    }
+    const kernel::SlidingThread& from = model_before.sliding_threads[t];
+    const Index to = model_after.sliding_threads[static_cast<std::size_t>(same)].joint_begin;
+    for (Index j = from.joint_begin; j < from.joint_end; ++j)
+      keep_joint(before.joints[at(j)], state.joints[at(to + j - from.joint_begin)]);
   }
 }
 
