@@ -20,32 +20,38 @@ inline void groups(const SpanView& s, const Span& span) {
   for (std::ptrdiff_t i = 0; i < span.groups; ++i) group<damped, Book::nothing, chain>(s, i, none);
 }
 
-// Row after row of the ledger, whose numbers begin as what is there.
+// Where a span's sums go: to rows of the ledger, one after the other, whose numbers begin as what is there.
+// Addresses of its own: those in the arguments could change with each store, for all that a compiler knows.
 template <Book::Sum book>
-inline void open_row(const AxialArguments& g, Index row, Sums& sums) {
-  if (with_energy(book)) read(g.booked + row * lanes, sums.energy);
-  if (with_power(book)) read((with_energy(book) ? g.due : g.booked) + row * lanes, sums.power);
-}
-template <Book::Sum book>
-inline void close_row(const AxialArguments& g, Index row, const Sums& sums) {
-  if (with_energy(book)) write(g.booked + row * lanes, sums.energy);
-  if (with_power(book)) write((with_energy(book) ? g.due : g.booked) + row * lanes, sums.power);
-}
+struct Rows {
+  double *energy, *power;
 
-// The same with sums added to the rows of the ledger.
+  Rows(const AxialArguments& g, Index row)
+      : energy(g.booked + row * lanes), power((with_energy(book) ? g.due : g.booked) + row * lanes) {}
+  void open(Sums& sums) const {
+    if (with_energy(book)) read(energy, sums.energy);
+    if (with_power(book)) read(power, sums.power);
+  }
+  void close(const Sums& sums) {
+    if (with_energy(book)) write(energy, sums.energy);
+    if (with_power(book)) write(power, sums.power);
+    energy += lanes, power += lanes;
+  }
+};
+
+// The same with sums added to the ledger.
 template <bool damped, Book::Sum book, bool chain>
 inline void booked_groups(const AxialArguments& g, const Span& span) {
   const SpanView s = view(g, span, with_power(book));
   constexpr Index row_groups = kernel::grain / lanes;
   const Index first = span.row_node / lanes;  // number of the first group in the whole scene
-  for (Index i = 0; i < span.groups;) {
-    const Index row = (first + i) / row_groups;
-    const Index row_end = (row + 1) * row_groups - first;
-    const Index end = row_end < span.groups ? row_end : span.groups;
+  Rows<book> rows(g, first / row_groups);
+  for (std::ptrdiff_t i = 0, end = row_groups - first % row_groups; i < span.groups; end += row_groups) {
+    if (end > span.groups) end = span.groups;
     Sums sums;
-    open_row<book>(g, row, sums);
+    rows.open(sums);
     for (; i < end; ++i) group<damped, book, chain>(s, i, sums);
-    close_row<book>(g, row, sums);
+    rows.close(sums);
   }
 }
 
