@@ -232,12 +232,35 @@ TEST(ErrorEstimate, AnnouncesItsRuns) {
 
 TEST(ErrorEstimate, ChanceMovesNodesByNextToNothing) {
   const Scene scene = briefly_waving_thread();
-  const RunTrack still = follow(scene, 1), moved = follow(scene, 1, 1e-9, 1),
-                 again = follow(scene, 1, 1e-9, 1);
+  const RunTrack still = follow(scene, 1), moved = follow(scene, 1, {1e-9, 1}),
+                 again = follow(scene, 1, {1e-9, 1});
   EXPECT_EQ(moved.probes, again.probes);
-  EXPECT_NE(moved.probes, follow(scene, 1, 1e-9, 2).probes);
+  EXPECT_NE(moved.probes, follow(scene, 1, {1e-9, 2}).probes);
   EXPECT_GT((moved.nodes[0][4] - still.nodes[0][4]).norm(), 1e-11);
   EXPECT_LT((moved.nodes[0][4] - still.nodes[0][4]).norm(), 1e-6);
+}
+
+// What nodes gain when they are moved belongs to what a scene begins with, however little that is.
+TEST(ErrorEstimate, ChanceIsNoLossOfEnergy) {
+  Scene scene = scene_of(R"(schema = 1
+[time]
+end_s = 0.02
+[gravity]
+acceleration_m_s2 = [0, 0, -9.81]
+[material.m]
+youngs_modulus_Pa = 1e9
+density_kg_m3 = 970
+[thread.main]
+material = "m"
+diameter_m = 0.002
+points_m = [[0, -0.5, 0], [0, 0.5, 0]]
+start = { support = "fixed" }
+end = { mass_kg = 0.2 }
+[probe.end]
+quantity = "position"
+of = "thread.main.end"
+)");
+  EXPECT_NO_THROW(follow(scene, 1, {1e-9, 1}));
 }
 
 TEST(ErrorEstimate, KnowsWhatIsByChance) {

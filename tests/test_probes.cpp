@@ -149,6 +149,31 @@ youngs_modulus_Pa = 70e9
   }
 }
 
+// Only sliding joints have a tension and a place on their thread, and that is of one thread.
+TEST(Probes, OnlySlidingJointsTellTensionAndPlace) {
+  const std::string ring = R"(
+[ring.r]
+diameter_m = 0.02
+wire_diameter_m = 0.004
+mass_kg = 0.1
+youngs_modulus_Pa = 70e9
+on = "thread.hanging"
+element = 1
+joint = "contact"
+)";
+  for (const std::string quantity : {"tension", "material_coordinate"}) {
+    const std::string probe = "[probe.j]\nquantity = \"" + quantity + "\"\nof = \"ring.r\"\n";
+    try {
+      Simulation(scene_of(std::string(scenery) + ring + probe), 1);
+      FAIL() << "not refused";
+    } catch (const CaseError& error) {
+      EXPECT_NE(std::string(error.what()).find("probe 'j': 0 threads slide through 'ring.r'"),
+                std::string::npos)
+          << error.what();
+    }
+  }
+}
+
 // A look computes it once, the next look anew.
 TEST(Probes, TheMouthIsThatOfTheLook) {
   const Case one = sliding_capture();

@@ -521,10 +521,9 @@ TEST(SlidingJoint, AfterAStepNoNeighbouringThreadingIsLower) {
 
 // ---- whole motions
 
-TEST(SlidingJoint, AtwoodsMachine) {
-  // a point pulley and next to no thread: elements of half a metre are as good as many
-  for (const int elements : {4, 20}) {
-    Scene scene = scene_of(R"(
+/// Two masses on next to no thread over a point pulley: elements of half a metre are as good as many.
+Scene light_atwood(int elements, const std::string& more = "") {
+  Scene scene = scene_of(R"(
 schema = 1
 [time]
 end_s = 1
@@ -550,17 +549,77 @@ center_m = [0, 0, -0.0001]
 normal = [0, 1, 0]
 support = "fixed"
 joint = "sliding"
-)");
-    scene.threads[0].elements = elements;
-    const double tension = 2 * 0.3 * 0.2 / 0.5 * g0;
-    scene.threads[0].length = 2 / (1 + tension / (1e8 * circle(0.002)));
-    Simulation sim(scene, 1);
+)" + more);
+  scene.threads[0].elements = elements;
+  const double tension = 2 * 0.3 * 0.2 / 0.5 * g0;
+  scene.threads[0].length = 2 / (1 + tension / (1e8 * circle(0.002)));
+  return scene;
+}
+
+TEST(SlidingJoint, AtwoodsMachine) {
+  for (const int elements : {4, 20}) {
+    Simulation sim(light_atwood(elements), 1);
     const double t = 0.5, start = place(sim, 0).z();
     run_until(sim, t);
     const double acceleration = 2 * (place(sim, 0).z() - start) / (t * t), exact = g0 * 0.1 / 0.5;
     EXPECT_NEAR(acceleration / exact, 1, 0.005) << elements << " elements";
     EXPECT_GT(sim.state().joints[0].passes, elements == 4 ? -1 : 1);
   }
+}
+
+TEST(SlidingJoint, ProbesTellTensionAndThreadDrawnThrough) {
+  const Scene scene = light_atwood(20, R"([probe.tension]
+quantity = "tension"
+of = "ring.pulley"
+[probe.drawn]
+quantity = "material_coordinate"
+of = "ring.pulley"
+)");
+  Simulation sim(scene, 1);
+  const double exact = g0 * 0.1 / 0.5, pull = 2 * 0.3 * 0.2 / 0.5 * g0;
+  const double half = scene.threads[0].length / 2;  // its last end is the heavy one, which goes down
+  double mean = 0;
+  for (int i = 0; i < 100; ++i) {
+    run_until(sim, 0.005 * i);
+    const std::vector<double> row = sim.probe_row(sim.look());
+    EXPECT_NEAR(half - row[1], exact * sim.time() * sim.time() / 2, 2e-3) << sim.time();
+    mean += row[0] / 100;
+  }
+  EXPECT_NEAR(mean / pull, 1, 0.02);
+}
+
+std::vector<Event> ends_of(const Summary& summary) {
+  std::vector<Event> ends;
+  for (const Event& event : summary.events)
+    if (event.kind == "thread_end") ends.push_back(event);
+  return ends;
+}
+
+// The joint keeps an end that is drawn to its ring: that is told, once.
+TEST(SlidingJoint, AThreadDrawnToItsEndIsTold) {
+  Scene scene = light_atwood(20);
+  scene.time.end = 1.2;
+  Simulation sim(scene, 1);
+  const double meets = std::sqrt(2 / (g0 * 0.1 / 0.5));  // all of a side of 1 m has gone through
+  const auto note_until = [&](double end) {              // as often as frames are written
+    for (double t = sim.time() + 0.01; t < end; t += 0.01) {
+      run_until(sim, t);
+      sim.note_events(sim.look());
+    }
+  };
+  note_until(meets - 0.02);
+  EXPECT_TRUE(ends_of(sim.summary()).empty());
+  EXPECT_TRUE(sim.summary().warnings.empty());
+  note_until(meets + 0.05);
+  const Summary summary = sim.summary();
+  const std::vector<Event> ends = ends_of(summary);
+  ASSERT_EQ(ends.size(), 1u);
+  EXPECT_EQ(ends[0].name, "pulley: node 0 of thread.main");
+  EXPECT_NEAR(ends[0].time, meets, 0.02);
+  const auto tells = [](const std::string& words) {
+    return words.find("ring pulley: node 0 of thread.main") != std::string::npos;
+  };
+  EXPECT_EQ(std::count_if(summary.warnings.begin(), summary.warnings.end(), tells), 1);
 }
 
 // ---- the thread that pulls a ring (Sec. 5.1)
@@ -756,8 +815,13 @@ TEST(SlidingJoint, AFrameShowsTheWayThatPulls) {
 TEST(SlidingJoint, BeforeItsThreadIsThereAJointStandsAtItsRing) {
   Scene scene = closing_net(12);
   scene.closing.time = 0.01;
+  scene.probes = {{"drawn", "ring.r2", ProbeQuantity::material_coordinate, {}},
+                  {"tension", "ring.r2", ProbeQuantity::tension, {}}};
   Simulation sim(scene, 1);
   run_until(sim, 0.002);
+  const std::vector<double> waiting = sim.probe_row(sim.look());
+  EXPECT_NEAR(waiting[0], 0.1 + 0.35, 1e-9) << "behind the towing thread, in the middle of the fourth cell";
+  EXPECT_EQ(waiting[1], 0);
   const Frame before = sim.frame(sim.look());
   ASSERT_EQ(before.joint_element.size(), 16u);
   EXPECT_TRUE(std::is_sorted(before.joint_element.begin(), before.joint_element.end()));
@@ -765,6 +829,7 @@ TEST(SlidingJoint, BeforeItsThreadIsThereAJointStandsAtItsRing) {
     EXPECT_EQ(before.joint_waypoint[j], before.ring_center[at(sim.result_model().joints[j].ring)]);
   run_until(sim, 0.01);
   EXPECT_EQ(sim.frame(sim.look()).joint_element, before.joint_element);
+  EXPECT_NEAR(sim.probe_row(sim.look())[0], waiting[0], 1e-3) << "laid as it lay";
 }
 
 // ---- hosts that fold

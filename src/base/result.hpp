@@ -97,8 +97,9 @@ std::span<const Vec3> waypoints_in(const Frame& frame, Index element);
 struct Event {
   double time = 0;
   std::string kind;  ///< ring_contact, target_contact, separation, mouth_closed, target_enclosed,
-                     ///< thread_left
-  std::string name;  ///< of the ring, target, mechanism or mouth
+                     ///< thread_left, thread_end
+  std::string
+      name;  ///< of the ring, target, mechanism or mouth; "r: thread.main", "r: node 0 of thread.main"
 };
 
 struct RingRecord {

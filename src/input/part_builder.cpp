@@ -42,7 +42,9 @@ std::string first_knot(const TomlMember& knot) {
 unsigned probe_forms(ProbeQuantity quantity) {
   switch (quantity) {
     case ProbeQuantity::tension:
-      return a_net | a_thread | a_mechanism | (any_node & ~static_cast<unsigned>(a_ring));
+      return a_net | a_thread | a_mechanism | any_node;
+    case ProbeQuantity::material_coordinate:
+      return a_ring;
     case ProbeQuantity::mouth_area:
     case ProbeQuantity::mouth_spread:
     case ProbeQuantity::energy:

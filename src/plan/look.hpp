@@ -44,6 +44,8 @@ class Look {
   /// its thread is there, and where the thread goes through it, m.
   Index joint_element(const Model& whole, Index joint) const;
   Vec3 joint_waypoint(const Model& whole, Index joint) const;
+  /// What the joints of this model stand at; none of threads that are not there yet.
+  const std::vector<kernel::JointState>& joints() const { return state_->joints; }
 
   std::vector<Vec3> positions() const;
   std::vector<Vec3> ring_centers() const;

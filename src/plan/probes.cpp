@@ -9,13 +9,14 @@ namespace cinch {
 namespace {
 
 const char* quantity_name(ProbeQuantity q) {
-  static constexpr const char* names[] = {"position", "displacement", "velocity",     "speed", "force",
-                                          "tension",  "mouth_area",   "mouth_spread", "energy"};
+  static constexpr const char* names[] = {
+      "position", "displacement",        "velocity",   "speed",        "force",
+      "tension",  "material_coordinate", "mouth_area", "mouth_spread", "energy"};
   return names[static_cast<std::size_t>(q)];
 }
 
 const char* quantity_unit(ProbeQuantity q) {
-  static constexpr const char* units[] = {"m", "m", "m/s", "m/s", "N", "N", "m^2", "m", "J"};
+  static constexpr const char* units[] = {"m", "m", "m/s", "m/s", "N", "N", "m", "m^2", "m", "J"};
   return units[static_cast<std::size_t>(q)];
 }
 
@@ -60,9 +61,34 @@ const Part* part_of(const Assembly& assembly, const Probe& probe) {
   return nullptr;
 }
 
+// Calls visit(joint's state) for those of a ring.
+template <class Visit>
+void each_joint_of(const Look& now, Index ring, Visit visit) {
+  const std::vector<kernel::Joint>& joints = now.model().joints;
+  for (std::size_t j = 0; j < joints.size(); ++j)
+    if (joints[j].ring == ring) visit(now.joints()[j]);
+}
+
+// Greatest tension of the threads that slide through a ring.
+double ring_tension(const Look& now, Index ring) {
+  double greatest = 0;
+  each_joint_of(now, ring,
+                [&](const kernel::JointState& joint) { greatest = std::max(greatest, joint.tension); });
+  return greatest;
+}
+
+// Unstretched thread from its start to the one joint of a ring; where the ring lies on it as long as the
+// thread waits for the closing time.
+double material_coordinate(const Look& now, Index ring) {
+  double along = now.assembly().rings[static_cast<std::size_t>(ring)].threadings.front().coordinate;
+  each_joint_of(now, ring, [&](const kernel::JointState& joint) { along = joint.along; });
+  return along;
+}
+
 // Greatest tension of the elements of a part, or of those that meet at a node.
 double greatest_tension(const Look& now, const Probe& probe) {
   double greatest = 0;
+  if (probe.of.starts_with("ring.")) return ring_tension(now, now.assembly().ring_of(probe.of));
   if (const Part* part = part_of(now.assembly(), probe)) {
     for (Index e = 0; e < part->elements; ++e)
       greatest = std::max(greatest, now.pull(part->first_element + e).tension);
@@ -95,6 +121,9 @@ void append_value(std::vector<double>& row, const Probe& probe, const Look& now,
     case ProbeQuantity::tension:
       row.push_back(greatest_tension(now, probe));
       return;
+    case ProbeQuantity::material_coordinate:
+      row.push_back(material_coordinate(now, assembly.ring_of(probe.of)));
+      return;
     default:
       break;
   }
@@ -122,22 +151,53 @@ void append_value(std::vector<double>& row, const Probe& probe, const Look& now,
   }
 }
 
+[[noreturn]] void refuse(const Probe& probe, const std::string& why) {
+  throw CaseError(probe.source.text + ": error: probe '" + probe.name + "': " + why);
+}
+
+// Rings with contact have neither tension nor a place on a thread.
+void check_joints(const Assembly& assembly, const Probe& probe) {
+  const std::size_t threads =
+      assembly.rings[static_cast<std::size_t>(assembly.ring_of(probe.of))].threadings.size();
+  if (threads == 1 || (threads > 1 && probe.quantity == ProbeQuantity::tension)) return;
+  refuse(probe, std::to_string(threads) + " threads slide through '" + probe.of + "'; allowed: a ring with " +
+                    (probe.quantity == ProbeQuantity::tension ? "sliding joints" : "one sliding joint"));
+}
+
+void check_motion(const Assembly& assembly, const Probe& probe) {
+  const Subject subject = subject_of(assembly, probe);
+  if (subject.ring && node_of(assembly, subject) < 0)
+    refuse(probe, "a ring on an element has no velocity of its own");
+}
+
+// What the reader cannot know: whether there is such a thing, and whether it has the quantity.
+void check_subject(const Assembly& assembly, const Probe& probe) {
+  switch (probe.quantity) {
+    case ProbeQuantity::mouth_area:
+    case ProbeQuantity::mouth_spread:
+    case ProbeQuantity::energy:
+      return;
+    case ProbeQuantity::velocity:
+    case ProbeQuantity::speed:
+      return check_motion(assembly, probe);
+    case ProbeQuantity::material_coordinate:
+      return check_joints(assembly, probe);
+    case ProbeQuantity::tension:
+      if (probe.of.starts_with("ring.")) return check_joints(assembly, probe);
+      if (part_of(assembly, probe) == nullptr) assembly.node_of(probe.of);  // throws where there is none
+      return;
+    default:
+      subject_of(assembly, probe);
+  }
+}
+
 }  // namespace
 
 std::vector<ResultModel::ProbeColumn> probe_columns(const Scene& scene, const Assembly& assembly) {
   std::vector<ResultModel::ProbeColumn> columns;
   for (const Probe& probe : scene.probes) {
     const ProbeQuantity q = probe.quantity;
-    if (q == ProbeQuantity::tension) {
-      if (part_of(assembly, probe) == nullptr) assembly.node_of(probe.of);  // throws where there is none
-    } else if (q != ProbeQuantity::mouth_area && q != ProbeQuantity::mouth_spread &&
-               q != ProbeQuantity::energy) {
-      const Subject subject = subject_of(assembly, probe);
-      const bool motion = q == ProbeQuantity::velocity || q == ProbeQuantity::speed;
-      if (subject.ring && motion && node_of(assembly, subject) < 0)
-        throw CaseError(probe.source.text + ": error: probe '" + probe.name +
-                        "': a ring on an element has no velocity of its own");
-    }
+    check_subject(assembly, probe);
     for (const std::string& suffix : suffixes(q))
       columns.push_back({probe.name + suffix, quantity_name(q), probe.of, quantity_unit(q)});
   }

@@ -5,11 +5,13 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <random>
 
 #include "base/error.hpp"
 #include "plan/contact_health.hpp"
 #include "plan/health.hpp"
 #include "plan/probes.hpp"
+#include "plan/thread_ends.hpp"
 #include "scene/fault.hpp"
 #include "statics/equilibrium.hpp"
 
@@ -76,6 +78,13 @@ double kinetic_energy(const Model& model, const State& state) {
   return sum;
 }
 
+void move_nodes(State& state, const Nudge& nudge) {
+  std::mt19937 generator(nudge.seed);
+  const auto next = [&] { return nudge.most * (static_cast<double>(generator()) / 2147483648.0 - 1); };
+  for (std::size_t i = 0; i < state.x.size(); ++i)
+    state.x[i] += next(), state.y[i] += next(), state.z[i] += next();
+}
+
 }  // namespace
 
 int choose_threads(Index elements, int available) {
@@ -98,11 +107,11 @@ static int available_threads(int wanted) {
 
 Simulation::Simulation(const Scene& scene, int threads) : Simulation(scene, prepare(scene), threads) {}
 
-Simulation::Simulation(const Scene& scene, Preparation preparation, int threads)
+Simulation::Simulation(const Scene& scene, Preparation preparation, int threads, const Nudge& nudge)
     : scene_(scene), preparation_(std::move(preparation)) {
   make_ready(threads);
   find_start();
-  start();
+  start(nudge);
 }
 
 Simulation::Simulation(const Scene& scene, Preparation preparation, int threads, Archive& saved)
@@ -139,8 +148,9 @@ void Simulation::enter_phase(std::size_t number) {
 }
 
 // Central differences begin with velocities half a step back: v(-1/2) = v(0) - dt/2 a(0).
-void Simulation::start() {
+void Simulation::start(const Nudge& nudge) {
   state_ = initial_state(model(), preparation_.assembly);
+  if (nudge.most > 0) move_nodes(state_, nudge);
   preparation_.assembly.forget_start();
   enter_phase(0);
   const Model& m = model();
@@ -360,8 +370,20 @@ void Simulation::note_losses(const Look& now) {
     overlaps_.blame(preparation_, state_, [&] { report_loss(preparation_, now, losses.front()); });
 }
 
+// Each once.
+void Simulation::note_drawn_ends(const Look& now) {
+  for (const DrawnEnd& end : drawn_ends(now)) {
+    const std::string name = preparation_.assembly.rings[at(now.model().joints[at(end.joint)].ring)].name +
+                             ": " + node_label(preparation_.assembly, end.node);
+    const auto same = [&](const Event& event) { return event.kind == "thread_end" && event.name == name; };
+    if (std::none_of(events_.begin(), events_.end(), same))
+      events_.push_back({now.time(), "thread_end", name});
+  }
+}
+
 void Simulation::note_events(const Look& now) {
   if (!threadings_.empty()) note_losses(now);
+  note_drawn_ends(now);
   if (!has_mouth_ || preparation_.closing_step < 0) return;
   const double area = now.mouth_area();
   greatest_mouth_ = std::max(greatest_mouth_, area);

@@ -15,6 +15,12 @@
 
 namespace cinch {
 
+/// Where nodes begin beside the places that a scene gives them: along each axis within `most` (m), by chance.
+struct Nudge {
+  double most = 0;
+  unsigned seed = 0;
+};
+
 class Simulation {
  public:
   /// Builds everything and stands at t = 0. `threads` 0: as many as pay for this scene, by its size at first
@@ -22,7 +28,7 @@ class Simulation {
   /// Throws CaseError for an impossible scene, NumericalError when no static equilibrium is found.
   explicit Simulation(const Scene& scene, int threads = 0);
   /// From what prepare(scene) has given.
-  Simulation(const Scene& scene, Preparation preparation, int threads);
+  Simulation(const Scene& scene, Preparation preparation, int threads, const Nudge& nudge = {});
   /// Goes on where the simulation of the same scene stood when save() was called, to the last bit, with any
   /// number of threads. Throws FileError for what does not belong to the scene.
   Simulation(const Scene& scene, Preparation preparation, int threads, Archive& saved);
@@ -77,7 +83,7 @@ class Simulation {
   void transfer_watch(Archive& archive);
   void transfer_seconds(Archive& archive);
   void find_start();
-  void start();
+  void start(const Nudge& nudge);
   void find_surfaces();
   void enter_phase(std::size_t phase);
   void advance_with_threads_that_pay(std::int64_t stop);
@@ -89,6 +95,7 @@ class Simulation {
   void find_faults();
   void note_pace();
   void note_losses(const Look& now);
+  void note_drawn_ends(const Look& now);
   void remember();
   [[noreturn]] void find_fault();
   std::vector<Event> all_events() const;

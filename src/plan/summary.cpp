@@ -1,6 +1,7 @@
 // What a simulation reports of itself apart from its frames: its model, events and summary.
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <limits>
 
 #include "base/version.hpp"
@@ -66,6 +67,16 @@ std::vector<Event> Simulation::all_events() const {
   return events;
 }
 
+static std::string words_of_end(const Event& end) {
+  char text[400];
+  std::snprintf(
+      text, sizeof text,
+      "ring %s, an end of its thread, was drawn to it at t = %.6g s; a sliding joint keeps it, as a "
+      "knot too large for the opening would be, where a free end would leave the ring",
+      end.name.c_str(), end.time);
+  return text;
+}
+
 Summary Simulation::summary() {
   const Assembly& assembly = preparation_.assembly;
   Summary s;
@@ -94,6 +105,8 @@ Summary Simulation::summary() {
   if (s.relative_residual > residual_limit)
     s.warnings.push_back(
         "energy is not conserved (residual above 1 %); a smaller time.step_s or more damping may help");
+  for (const Event& event : events_)
+    if (event.kind == "thread_end") s.warnings.push_back(words_of_end(event));
   const Momentum drift = ledger_.drift(model(), state_, time());
   s.linear_momentum_drift = drift.linear.norm();
   if (!model().has_gravity) s.angular_momentum_drift = drift.angular.norm();

@@ -68,7 +68,9 @@ struct Recoil {
 /// A thread that slides through a ring.
 struct Threading {
   Index part = 0;
-  double along = 0;  ///< where the ring stands at first: elements from the thread's start
+  double along = 0;       ///< where the ring stands at first: elements from the thread's start
+  double coordinate = 0;  ///< the same as unstretched thread, m
+  double side = 1;        ///< 1: the thread goes where the ring's normal points to; -1: the other way
 };
 
 /// The thread that comes nearest to passing through a ring.

@@ -216,6 +216,7 @@ enum class ProbeQuantity {
   speed,
   force,
   tension,
+  material_coordinate,
   mouth_area,
   mouth_spread,
   energy

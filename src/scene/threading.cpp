@@ -31,6 +31,11 @@ void check_opening(const Assembly& assembly, const AssemblyRing& ring, const Par
   fail(source, text);
 }
 
+Vec3 normal_of(const Assembly& assembly, const AssemblyRing& ring) {
+  if (ring.element < 0) return ring.normal;
+  return (assembly.nodes[at(ring.host_b)].position - assembly.nodes[at(ring.host_a)].position).normalized();
+}
+
 struct Crossing {
   double along;  // elements from the thread's start
   double out;    // from the ring's centre, m
@@ -41,8 +46,7 @@ struct Crossing {
 std::vector<Crossing> crossings(const Assembly& assembly, const AssemblyRing& ring, const Part& thread) {
   const auto place = [&](Index node) { return assembly.nodes[at(node)].position; };
   const Vec3 center = 0.5 * (place(ring.host_a) + place(ring.host_b));
-  const Vec3 normal =
-      ring.element < 0 ? ring.normal : Vec3((place(ring.host_b) - place(ring.host_a)).normalized());
+  const Vec3 normal = normal_of(assembly, ring);
   std::vector<Crossing> found;
   std::optional<std::size_t> last;  // node that is not in the plane
   for (std::size_t k = 0; k < thread.nodes.size(); ++k) {
@@ -59,6 +63,15 @@ std::vector<Crossing> crossings(const Assembly& assembly, const AssemblyRing& ri
     found.push_back({static_cast<double>(before) + t, ((1 - t) * a + t * next).norm()});
   }
   return found;
+}
+
+Threading threading_of(const Assembly& assembly, const AssemblyRing& ring, Index number, double along) {
+  const Part& thread = assembly.parts[at(number)];
+  const std::size_t k = at(std::clamp(static_cast<Index>(along), 0, thread.elements - 1));
+  const Vec3 way =
+      assembly.nodes[at(thread.nodes[k + 1])].position - assembly.nodes[at(thread.nodes[k])].position;
+  const double rest = assembly.elements[at(thread.first_element)].rest_length;
+  return {number, along, rest * along, normal_of(assembly, ring).dot(way) < 0 ? -1.0 : 1.0};
 }
 
 // Where a thread passes through a ring, in elements from its start.
@@ -106,7 +119,8 @@ void thread_ring(const Ring& spec, const std::map<Index, LaidAlong>& carriers, c
            words +
                "does not pass through it, as joint = \"sliding\" needs; allowed: threads that cross the "
                "ring's plane inside its opening");
-    if (!places.empty()) ring.threadings.push_back({number, places.front()});
+    if (places.empty()) continue;
+    ring.threadings.push_back(threading_of(assembly, ring, number, places.front()));
   }
   if (ring.threadings.empty())
     fail(spec.source,

@@ -30,7 +30,7 @@ struct Ensemble {
 void run_one(Ensemble& ensemble, std::size_t number, int threads) {
   try {
     const double nudge = number > 0 ? ErrorEstimate::nudge : 0;
-    ensemble.tracks[number] = follow(ensemble.scene, threads, nudge, static_cast<unsigned>(number));
+    ensemble.tracks[number] = follow(ensemble.scene, threads, {nudge, static_cast<unsigned>(number)});
   } catch (...) {
     ensemble.failures[number] = std::current_exception();
   }

@@ -1,17 +1,9 @@
 #include "study/run_track.hpp"
 
 #include <cmath>
-#include <random>
 
 namespace cinch {
 namespace {
-
-void move_nodes(State& state, double nudge, unsigned seed) {
-  std::mt19937 generator(seed);
-  const auto next = [&] { return nudge * (static_cast<double>(generator()) / 2147483648.0 - 1); };
-  for (std::size_t i = 0; i < state.x.size(); ++i)
-    state.x[i] += next(), state.y[i] += next(), state.z[i] += next();
-}
 
 double sample_interval(const OutputSpec& output) {
   return output.probe_interval > 0 ? output.probe_interval : output.frame_interval;
@@ -19,9 +11,8 @@ double sample_interval(const OutputSpec& output) {
 
 }  // namespace
 
-RunTrack follow(const Scene& scene, int threads, double nudge, unsigned seed) {
-  Simulation simulation(scene, threads);
-  if (nudge > 0) move_nodes(simulation.state(), nudge, seed);
+RunTrack follow(const Scene& scene, int threads, const Nudge& nudge) {
+  Simulation simulation(scene, prepare(scene), threads, nudge);
   RunTrack track;
   const Timeline& timeline = simulation.preparation().timeline;
   const double interval = sample_interval(scene.output);

@@ -11,8 +11,7 @@ struct RunTrack {
   std::vector<std::vector<Vec3>> nodes;     ///< of each part of the assembly, m
 };
 
-/// Runs a scene to its end as `cinch run` does, without its files. Its nodes begin up to `nudge` (m)
-/// elsewhere in each direction: by chance, the same for the same seed. Throws what Simulation throws.
-RunTrack follow(const Scene& scene, int threads, double nudge = 0, unsigned seed = 0);
+/// Runs a scene to its end as `cinch run` does, without its files. Throws what Simulation throws.
+RunTrack follow(const Scene& scene, int threads, const Nudge& nudge = {});
 
 }  // namespace cinch
