@@ -36,6 +36,7 @@ class Result:
     clock: str = WALL  # of these seconds
     counters: dict[str, float] = field(default_factory=dict)
     error: str = ""
+    labels: tuple[str, ...] = ()  # each once: state hashes, so more than one means that repetitions came to other bits
 
     @property
     def median(self) -> float:
@@ -50,11 +51,12 @@ class Result:
 
 @dataclass(frozen=True)
 class Run:
-    """One run of the benchmarks on one machine."""
+    """One run of the benchmarks on one machine, perhaps with results of older ones (newest.py)."""
 
     path: Path
     context: dict[str, Any]
     results: dict[str, Result]
+    older: dict[str, Run] = field(default_factory=dict)  # by the names of the benchmarks that come from them
 
     @property
     def id(self) -> str:
@@ -73,6 +75,18 @@ class Run:
     def about(self, key: str, default: str = "unknown") -> str:
         """A word of the context; runs that bench/run has not made lack some."""
         return str(self.context.get(key) or default)
+
+    @property
+    def commit(self) -> str:
+        return self.about("commit") + (" with changes" if self.about("dirty") == "yes" else "")
+
+    def commit_of(self, benchmark: str) -> str:
+        """The commit that a benchmark was measured at."""
+        return self.older.get(benchmark, self).commit
+
+    def parsed(self) -> list[tuple[names.Name, Result]]:
+        """All results that have times, with their names in parts."""
+        return [(names.parse(result.name), result) for result in self.results.values() if result.seconds]
 
     def handover_ns(self) -> float | None:
         """Median time for one thread to hand over to another: says what state the machine was in."""
@@ -158,7 +172,8 @@ def _result(name: str, entries: list[dict[str, Any]]) -> Result:
     clock = PROCESSOR if all(_by_processor(entry) for entry in done) else WALL
     key = "cpu_time" if clock == PROCESSOR else "real_time"
     seconds = tuple(entry[key] * _SECONDS[entry["time_unit"]] for entry in done)
-    return Result(name, seconds, clock, _median_counters(done))
+    labels = dict.fromkeys(entry["label"] for entry in done if isinstance(entry.get("label"), str) and entry["label"])
+    return Result(name, seconds, clock, _median_counters(done), labels=tuple(labels))
 
 
 def _by_processor(entry: dict[str, Any]) -> bool:

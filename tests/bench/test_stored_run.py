@@ -73,6 +73,12 @@ class Reading(unittest.TestCase):
                          {"one_thread": ("processor", 2), "threads": ("wall", 3), "set": ("wall", 3),
                           "old": ("wall", 3)})
 
+    def test_each_label_is_kept_once(self) -> None:
+        results = self.read([{"name": name, "real_time": 2, "time_unit": "s", "label": label}
+                             for name, label in (("a", "0x1"), ("a", "0x2"), ("a", "0x1"), ("b", ""), ("c", 3))])
+        self.assertEqual({name: result.labels for name, result in results.items()},
+                         {"a": ("0x1", "0x2"), "b": (), "c": ()})
+
     def test_a_benchmark_that_gave_up_is_told_as_such(self) -> None:
         result = self.read([sample.gave_up("a", "no such case")])["a"]
         self.assertEqual((result.seconds, result.error), ((), "no such case"))
