@@ -7,14 +7,25 @@ from typing import Any, Iterable, Sequence, Union
 import names
 from stored_run import Result, Run
 
-Cell = Union[str, float, None]  # None: not measured
+
+
+@dataclass(frozen=True)
+class Badge:
+    """A word that tells good from bad by its colour."""
+
+    words: str
+    look: str  # good, fair, poor or none, as the page's style names them
+
+
+Cell = Union[str, float, Badge, None]  # None: not measured
 Row = Sequence[Cell]
 Chart = dict[str, Any]
 
 
 @dataclass
 class Figure:
-    """A chart, how to read it and its numbers. Without rows the run has not measured it."""
+    """A chart, how to read it and its numbers. Without rows the run has not measured it; without a chart the table is
+    all there is."""
 
     title: str
     caption: str  # one sentence: how to read it, what is good
@@ -62,8 +73,7 @@ def measure(pattern: str) -> str:
 
 def of_suite(run: Run, suite: str) -> list[tuple[names.Name, Result]]:
     """All results of one suite that have times, with their names in parts."""
-    parsed = [(names.parse(result.name), result) for result in run.results.values() if result.seconds]
-    return [(name, result) for name, result in parsed if name.suite == suite]
+    return [(name, result) for name, result in run.parsed() if name.suite == suite]
 
 
 def by_scene(pairs: Iterable[tuple[names.Name, Result]]) -> dict[str, dict[int, Result]]:
@@ -96,10 +106,10 @@ def whole(value: float | None) -> int | None:
     return None if value is None else round(value)
 
 
-def origin(data: Chart) -> str:
+def origin(data: Chart, how: str = "measured") -> str:
     """By what and where a figure was measured that is not of the page's own run."""
     machine = ", ".join(str(data[key]) for key in ("machine", "cpu") if data.get(key))
-    return (f"Not of this page's run: measured at commit {data.get('commit') or 'unknown'} on "
+    return (f"Not of this page's run: {how} at commit {data.get('commit') or 'unknown'} on "
             f"{machine or 'an unknown machine'}, instruction set {data.get('isa') or 'unknown'}.")
 
 
@@ -111,7 +121,7 @@ def first_cells(rows: Sequence[Row]) -> list[str]:
 def column(rows: Sequence[Row], index: int) -> list[float | None]:
     """A column of numbers, as the lengths of bars."""
     cells = [row[index] for row in rows]
-    return [None if isinstance(cell, str) else rounded(cell) for cell in cells]
+    return [None if isinstance(cell, (str, Badge)) else rounded(cell) for cell in cells]
 
 
 def rounded(value: float | None) -> float | None:

@@ -1,29 +1,33 @@
-"""Figures of the parts of a step and of what is around it: element update, absent features, kernels, output."""
+"""Figures of the parts of a step and of what is around it: element update, kernels, output."""
 from __future__ import annotations
 
 from page.figure import GREY, Figure, Row, Series, bars, column, counter, first_cells, measure, of_suite, per_update_ns
 from stored_run import Result, Run
 
-Instructions = dict[str, dict[str, float]]
+
+KINDS = {"bare": ("yardstick", GREY), "chain": ("Cinch", 0), "chain_with_ledger": ("Cinch, with energy ledger", 1)}
 
 
 def element(run: Run) -> Figure:
-    """The solver's element update beside two bare loops that do nothing else."""
-    kinds = {"bare": ("yardstick", GREY), "chain": ("Cinch", 0), "chain_with_ledger": ("Cinch, with energy ledger", 1)}
-    times: dict[str, dict[str, Result]] = {}
+    """The solver's element update beside two bare loops that do nothing else; small nets below, which have none."""
+    chains: dict[str, dict[str, Result]] = {}
+    nets: list[Row] = []
     for name, result in of_suite(run, "element"):
         if len(name.parts) == 2 and per_update_ns(result):
-            times.setdefault(name.parts[1], {})[name.parts[0]] = result
-    sizes = sorted(times, key=lambda size: (len(size), size))
-    rows: list[Row] = [(f"{size} elements", *(_time(times[size], kind) for kind in kinds),
-                        *(_of_yardstick(times[size], kind) for kind in ("chain", "chain_with_ledger")))
-                       for size in sizes]
-    series = [Series(words, colour, column(rows, i)) for i, (words, colour) in enumerate(kinds.values(), 1)]
+            chains.setdefault(name.parts[1], {})[name.parts[0]] = result
+        elif len(name.parts) == 1 and per_update_ns(result):
+            nets.append((name.parts[0].replace("_", " "), None, None, per_update_ns(result), None, None))
+    sizes = sorted(chains, key=lambda size: (len(size), size))
+    rows: list[Row] = [(f"chain, {size} elements", *(_time(chains[size], kind) for kind in KINDS),
+                        *(_of_yardstick(chains[size], kind) for kind in ("chain", "chain_with_ledger")))
+                       for size in sizes] + nets
+    series = [Series(words, colour, column(rows, i)) for i, (words, colour) in enumerate(KINDS.values(), 1)]
     return Figure(
         "Element update beside its yardstick",
-        "Shorter is better; the yardstick is the same arithmetic in bare loops: something to compare with, no bound.",
+        "Shorter is better; the yardstick is the same arithmetic in bare loops: something to compare with, no bound. "
+        "Nets have none: their mesh sides of several elements are short runs.",
         measure("^element/"),
-        ["chain", "yardstick, ns", "Cinch, ns", "with ledger, ns", "Cinch's speed, % of yardstick",
+        ["scene", "yardstick, ns", "Cinch, ns", "with ledger, ns", "Cinch's speed, % of yardstick",
          "with ledger, % of yardstick"],
         rows, bars(first_cells(rows), series, "time per element and step, ns"))
 
@@ -40,39 +44,6 @@ def _of_yardstick(kinds: dict[str, Result], kind: str) -> float | None:
     if counted is not None or "bare" not in kinds:
         return counted
     return 100 * (per_update_ns(kinds["bare"]) or 0) / (per_update_ns(kinds[kind]) or 1)
-
-
-def absent(run: Run, instructions: Instructions, counted_on: str) -> Figure:
-    """What a feature costs a scene that does not use it: time from this run, instructions from callgrind."""
-    speeds: dict[str, dict[str, float]] = {}
-    for name, result in of_suite(run, "absent"):
-        updates = result.counters.get("element_updates_per_second")
-        if len(name.parts) == 2 and updates:
-            speeds.setdefault(name.parts[0], {})[name.parts[1]] = updates
-    features = dict.fromkeys([*speeds, *instructions])
-    costs = [(feature.replace("_", " "), _extra_time(speeds.get(feature, {})),
-              _extra_work(instructions.get(feature, {}))) for feature in features]
-    rows: list[Row] = [row for row in costs if row[1] is not None or row[2] is not None]
-    series = [Series("time", 0, column(rows, 1)), Series("instructions", 1, column(rows, 2))]
-    note = f" Instructions were counted on {counted_on}." if counted_on else ""
-    return Figure(
-        "What absent features cost",
-        "Extra time and instructions of the solver's step in a scene that lacks the feature, against a program "
-        "stripped of it by hand; 0 % is good, and few percent of time either way are noise." + note,
-        measure("^absent/"), ["feature", "extra time, %", "extra instructions, %"], rows,
-        bars(first_cells(rows), series, "extra cost of a step, %"))
-
-
-def _extra_time(speeds: dict[str, float]) -> float | None:
-    if not {"with", "without"} <= speeds.keys():
-        return None
-    return 100 * (speeds["without"] / speeds["with"] - 1)
-
-
-def _extra_work(counts: dict[str, float]) -> float | None:
-    if not counts.get("stripped") or "counted" not in counts:
-        return None
-    return 100 * (counts["counted"] / counts["stripped"] - 1)
 
 
 def kernels(run: Run) -> Figure:

@@ -8,6 +8,8 @@ from __future__ import annotations
 import json
 import random
 import sys
+import tempfile
+import zlib
 from pathlib import Path
 from typing import Any, Iterator
 
@@ -31,7 +33,8 @@ def entries(name: str, seconds: float, counters: dict[str, float], repetitions: 
     """The single measurements of one benchmark, then two of the aggregates that Google Benchmark adds. The machine is
     busy: one thread has the processor for 80 % of the time."""
     appended, busy = ("", 1.25) if name.startswith(ONE_THREAD) else ("/real_time", 1.0)
-    base = {"run_name": name + appended, "repetitions": repetitions, "threads": 1, "time_unit": "ms"}
+    base = {"run_name": name + appended, "repetitions": repetitions, "threads": 1, "time_unit": "ms",
+            **({"label": state_hash(name)} if name.startswith("case/") else {})}
     times = []
     for index in range(repetitions):
         times.append(1e3 * seconds * (1 + 0.02 * noise.random()))
@@ -44,6 +47,11 @@ def entries(name: str, seconds: float, counters: dict[str, float], repetitions: 
                "aggregate_unit": "percentage", "iterations": repetitions, "real_time": 0.01, "cpu_time": 0.01}
 
 
+def state_hash(name: str) -> str:
+    """The same for each number of threads, as the solver's bits are."""
+    return f"0x{zlib.crc32(name.rsplit('/threads:', 1)[0].encode()):016x}"
+
+
 def speed_up(threads: int, serial: float) -> float:
     """Amdahl's law."""
     return 1 / (serial + (1 - serial) / threads)
@@ -54,15 +62,18 @@ Benchmark = tuple[str, float, dict[str, float]]
 CASES = {"ring_pull/whole": (200, 10e-3, 0.9), "edge_closure/whole": (2800, 0.15, 0.4),
          "capture/whole": (2300, 0.2, 0.3), "capture/deployment": (1800, 0.1, 0.5),
          "capture/closing": (2300, 0.25, 0.2), "large_capture/closing/long": (72000, 12.0, 0.05)}
+ONE_THREAD_CASES = {"capture/closing_without_ledger": (2300, 0.24), "ring_pull/sliding": (20, 1e-3),
+                    "edge_closure/closing": (460, 0.03)}
 
 
 def of_cases() -> Iterator[Benchmark]:
-    for case, (elements, minutes, serial) in CASES.items():
-        for threads in THREADS:
+    every = {**CASES, **{case: (*size, 1.0) for case, size in ONE_THREAD_CASES.items()}}
+    for case, (elements, minutes, serial) in every.items():
+        for threads in THREADS if case in CASES else (1,):
             gain = speed_up(threads, serial)
             meeting = 0.0 if threads == 1 else min(0.6, serial)
             steps = {} if case.endswith("/whole") else {
-                "steps_per_second": gain * 1.25e5, "flown_share": 0.9 if "deployment" in case else 0.004}
+                "steps_per_second": gain * 1.25e5 * (1.04 if "without" in case else 1), "flown_share": 0.9 if "deployment" in case else 0.004}
             shares = {"contacts": 0.3, "axial_forces": 0.3, "gather_and_move": 0.2, "broadphase": 0.1, "observe": 0.05}
             yield f"case/{case}/threads:{threads}", minutes / gain, {
                 "minutes_per_simulated_second": minutes / gain, "elements": elements, "nodes": elements * 0.9,
@@ -72,12 +83,13 @@ def of_cases() -> Iterator[Benchmark]:
 
 
 def of_growth() -> Iterator[Benchmark]:
-    for nodes in (2_000, 10_000, 50_000, 200_000, 1_000_000):
+    for nodes in (1_024, 10_000, 99_856, 315_844, 1_000_000):
         for threads in THREADS:
             cached = nodes < 30_000
             gain = speed_up(threads, 2e3 / nodes) if cached else min(speed_up(threads, 0.02), 4 + nodes / 5e5)
             updates = gain * (6e8 if cached else 3e8)
-            yield f"growth/{nodes}/threads:{threads}", 0.05 / gain, {
+            name = f"growth/{nodes}" + ("/long" if nodes == 1_000_000 else "")
+            yield f"{name}/threads:{threads}", 0.05 / gain, {
                 "nodes": nodes, "elements": 1.05 * nodes, "element_updates_per_second": updates,
                 "bytes_per_second": 100 * updates,
                 "fraction_of_triad": 1.6 + 0.1 * threads if cached else 0.8 + 0.01 * threads,
@@ -92,22 +104,37 @@ def of_parts() -> Iterator[Benchmark]:
         for kind, share in (("bare", 1.0), ("chain", 0.93), ("chain_with_ledger", 0.7)):
             fraction = {} if kind == "bare" else {"fraction_of_yardstick": share}
             yield f"element/{kind}/{elements}", 1e-3, {"element_updates_per_second": 1e9 * share, **fraction}
+    for nodes, elements in ((781, 880), (1737, 2016)):
+        yield f"element/net_of_{nodes}_nodes", 1e-3, {"element_updates_per_second": 3e8, "elements": elements,
+                                                      "nodes": nodes}
     for kernel, items in (("axial_force", 8e8), ("ring_distance", 3e8), ("node_gather", 1e9)):
         yield f"kernel/{kernel}/4096", 1e-3, {"items_per_second": items, "bytes_per_second": 60 * items}
     for feature, cost in (("rings", 1.001), ("balls", 1.004), ("ledger", 0.998), ("probes", 1.02)):
         yield f"absent/{feature}/with", 1e-3, {"element_updates_per_second": 9e8 / cost}
         yield f"absent/{feature}/without", 1e-3, {"element_updates_per_second": 9e8}
-    for scene, seconds in (("ring_pull", 2e-3), ("capture", 0.06), ("large_capture", 1.4)):
+    for scene, seconds in (("ring_pull", 2e-3), ("capture", 0.06), ("large_capture", 1.4), ("net_1000000/long", 1.1)):
         yield f"startup/{scene}", seconds, {}
     for what in ("frame", "report"):
         yield f"output/{what}", 0.03, {"bytes_per_second": 4e8}
+
+
+def of_ways() -> Iterator[Benchmark]:
+    for nodes in (1_024, 99_856):
+        for threads in THREADS:
+            for way, share in (("gather", 1.0), ("coloured_scatter", 0.6), ("private_sums", 0.8 / threads**0.5)):
+                yield f"reduction/{way}/{nodes}/threads:{threads}", 0.02, {
+                    "element_updates_per_second": 4e8 * share * speed_up(threads, 0.1), "nodes": nodes,
+                    "omp_threads": threads}
+    for elements in (1_000, 10_000, 100_000):
+        yield f"broadphase/{elements}", 1e-7 * elements, {
+            "pairs_tested": 40 * elements, "pairs_kept": 3 * elements, "elements": elements, "items_per_second": 1e7}
 
 
 def google_json(machine: str = "lab", commit: str = "aaaaaaaaaaaa", *, slower: dict[str, float] | None = None,
                 repetitions: int = 5, seed: int = 1, only: str = "", **context: str) -> dict[str, Any]:
     """A whole run. `slower` multiplies times by the benchmark's name, `only` keeps names that begin so."""
     noise, factors = random.Random(seed), slower or {}
-    benchmarks = [entry for group in (of_cases(), of_growth(), of_parts()) for name, seconds, counters in group
+    benchmarks = [entry for group in (of_cases(), of_growth(), of_parts(), of_ways()) for name, seconds, counters in group
                   if name.startswith(only)
                   for entry in entries(name, seconds * factors.get(name, 1), counters, repetitions, noise)]
     about = {"date": COMMITS.get(commit, "2026-05-01T12:00:00+00:00"), "host_name": "h", "num_cpus": 16,
@@ -130,6 +157,13 @@ def store(folder: Path, name: str, data: dict[str, Any]) -> Path:
     return path
 
 
+def run_of(data: dict[str, Any]) -> Any:
+    """A stored run, read back."""
+    from stored_run import read_run
+    with tempfile.TemporaryDirectory() as folder:
+        return read_run(store(Path(folder), "run", data))
+
+
 def store_history(folder: Path) -> list[Path]:
     """Three commits on each of two machines, the second slower for one benchmark; the last is lab's latest."""
     runs = []
@@ -141,8 +175,10 @@ def store_history(folder: Path) -> list[Path]:
     return runs
 
 
-INSTRUCTIONS: dict[str, dict[str, float]] = {"rings": {"counted": 1001000, "stripped": 1000000},
-                                             "balls": {"counted": 1000000, "stripped": 1000000}}
+INSTRUCTIONS: dict[str, Any] = {
+    "machine": "desk", "cpu": "Example CPU 2-Core", "commit": "ffffffffffff", "isa": "v3", "date": "2026-04-02",
+    "features": {"rings": {"counted": 1001000, "stripped": 1000000},
+                 "balls": {"counted": 1000000, "stripped": 1000000}}}
 
 
 def of_study() -> dict[str, Any]:
@@ -188,6 +224,12 @@ def of_stability() -> dict[str, Any]:
             "groups": groups, "cells": cells}
 
 
+def found() -> Any:
+    """What the other programs have found, for the page."""
+    from dashboard import Found
+    return Found(INSTRUCTIONS, of_study(), of_stability())
+
+
 def store_page(folder: Path) -> Path:
     """A page with every figure filled, made by the programs as a user would."""
     import dashboard
@@ -197,9 +239,8 @@ def store_page(folder: Path) -> Path:
     for path in runs:
         history.append(folder / "history.jsonl", read_run(path))
     page = folder / "dashboard.html"
-    page.write_text(dashboard.render(read_run(runs[-1]), history.read(folder / "history.jsonl"), INSTRUCTIONS,
-                                     "2026-04-02", dashboard.CHART_JS.read_text(encoding="utf-8"), of_study(),
-                                     of_stability()),
+    page.write_text(dashboard.render(read_run(runs[-1]), history.read(folder / "history.jsonl"),
+                                     dashboard.CHART_JS.read_text(encoding="utf-8"), found()),
                     encoding="utf-8")
     return page
 

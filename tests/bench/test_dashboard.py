@@ -13,23 +13,17 @@ from typing import Any
 import sample
 import dashboard
 import summary
+from sample import run_of
 from page import cases, parts, precision, scaling, stability
 from machine import cpu
-from stored_run import Run, read_run
+from stored_run import read_run
 
 CHART_JS = "/* Chart.js is not looked at here */"
 
 
-def page_of(data: dict[str, Any], instructions: dict[str, Any] | None = None) -> str:
+def page_of(data: dict[str, Any]) -> str:
     """The page of one run without a history."""
-    return dashboard.render(run_of(data), [], instructions or {}, "", CHART_JS, sample.of_study(),
-                            sample.of_stability())
-
-
-def run_of(data: dict[str, Any]) -> Run:
-    """A stored run, read back."""
-    with tempfile.TemporaryDirectory() as folder:
-        return read_run(sample.store(Path(folder), "run", data))
+    return dashboard.render(run_of(data), [], CHART_JS, sample.found())
 
 
 def embedded(page: str, element_id: str) -> Any:
@@ -49,9 +43,9 @@ class Page(unittest.TestCase):
         self.assertNotIn(str(sample.ROOT), page)
 
     def test_every_figure_has_title_axes_caption_and_numbers(self) -> None:
-        page = page_of(sample.google_json(), sample.INSTRUCTIONS)
+        page = page_of(sample.google_json())
         figures = re.findall(r'<figure class="plot">(.*?)</figure>', page, re.DOTALL)
-        self.assertEqual(len(figures), 18)
+        self.assertEqual(len(figures), 21)
         for figure in figures:
             for part in ("<h3>", "<canvas", "<figcaption>", "<details>", "<tbody><tr>"):
                 self.assertIn(part, figure)
@@ -66,8 +60,9 @@ class Page(unittest.TestCase):
         paper = next(series for series in chart["series"] if "i7-6700HQ" in series["label"])
         self.assertEqual(dict(zip(chart["categories"], paper["values"])),
                          {"capture, whole": 58.25, "capture, deployment": None, "capture, closing": None,
-                          "edge_closure, whole": 110.2, "large_capture, closing": None,
-                          "ring_pull, whole, 200 elements": 10.1})
+                          "capture, closing without ledger": None, "edge_closure, whole": 110.2,
+                          "edge_closure, closing": None, "large_capture, closing": None,
+                          "ring_pull, whole, 200 elements": 10.1, "ring_pull, sliding, 20 elements": None})
         self.assertIn("edge_closure, whole: 1,680 times faster", page)
 
     def test_phases_are_not_compared_with_the_papers_whole_case(self) -> None:
@@ -78,8 +73,8 @@ class Page(unittest.TestCase):
 
     def test_what_is_not_measured_names_its_command(self) -> None:
         page = page_of(sample.google_json(only="element/"))
-        self.assertEqual(page.count("Not measured in this run."), 12)
-        for suite in ("case", "growth", "absent", "kernel"):
+        self.assertEqual(page.count("Not measured in this run."), 14)
+        for suite in ("case", "growth", "reduction", "broadphase", "kernel"):
             self.assertIn(f"bench/run --benchmark_filter=&#x27;^{suite}/&#x27;", page)
         self.assertIn("No history yet.", page)
 
@@ -124,7 +119,7 @@ class Page(unittest.TestCase):
     def test_a_page_without_a_study_says_how_to_have_it(self) -> None:
         with tempfile.TemporaryDirectory() as folder:
             run = read_run(sample.store(Path(folder), "run", sample.google_json(only="element/")))
-            self.assertIn("To measure it: <code>bench/study</code>", dashboard.render(run, [], {}, "", CHART_JS))
+            self.assertIn("To measure it: <code>bench/study</code>", dashboard.render(run, [], CHART_JS))
 
     def test_the_matrix_is_counted_and_drawn_over_what_was_made_extreme(self) -> None:
         page = page_of(sample.google_json())
@@ -140,7 +135,7 @@ class Page(unittest.TestCase):
     def test_a_page_without_a_matrix_says_how_to_have_it(self) -> None:
         with tempfile.TemporaryDirectory() as folder:
             run = read_run(sample.store(Path(folder), "run", sample.google_json(only="element/")))
-            self.assertIn("To measure it: <code>bench/stability</code>", dashboard.render(run, [], {}, "", CHART_JS))
+            self.assertIn("To measure it: <code>bench/stability</code>", dashboard.render(run, [], CHART_JS))
 
     def test_a_step_is_as_long_as_its_rate_says(self) -> None:
         figure = scaling.hand_over(run_of(sample.google_json()))
