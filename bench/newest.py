@@ -8,9 +8,7 @@ from pathlib import Path
 
 import names
 from command_line import BadInput
-from stored_run import Run, read_run, read_text
-
-MADE_WITH = ("isa", "compiler", "build_type", "mode")
+from stored_run import MADE_WITH, Run, read_run, read_text
 
 
 def place(run: Run) -> tuple[str, ...]:

@@ -17,6 +17,7 @@ import names
 from command_line import BadInput
 
 WALL, PROCESSOR = "wall", "processor"  # clocks
+MADE_WITH = ("isa", "compiler", "build_type", "mode")  # with the machine: times of others are never joined
 
 _SECONDS = {"ns": 1e-9, "us": 1e-6, "ms": 1e-3, "s": 1.0}
 

@@ -3,7 +3,8 @@ from __future__ import annotations
 
 from html import escape
 
-from page import bits, cases
+import verdict
+from page import cases
 from page.html import tag
 from paper_times import MACHINE
 from stored_run import Run
@@ -27,8 +28,7 @@ def lead(run: Run) -> str:
 
 def alarms(run: Run) -> str:
     """Bits that differ, benchmarks that gave up."""
-    gave_up = [f"{result.name} gave up: {result.error}" for result in run.results.values() if result.error]
-    return "".join(tag("p", escape(words), "alarm") for words in [*bits.differences(run), *gave_up])
+    return "".join(tag("p", escape(words), "alarm") for words in verdict.verdict(run)[1])
 
 
 def facts(run: Run) -> str:

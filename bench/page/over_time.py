@@ -10,7 +10,7 @@ from typing import Any
 from comparison import TOLERANCE, Spread, judge
 from history import Record
 from page.figure import Row
-from stored_run import PROCESSOR
+from stored_run import MADE_WITH, PROCESSOR
 from text import duration
 
 
@@ -24,8 +24,6 @@ class Point:
     repetitions: int
     ranged: bool  # a run has repeated it: single measurements of several runs are no range
 
-
-MADE_WITH = ("isa", "compiler", "build_type", "mode")
 
 
 def points(records: list[Record]) -> dict[str, dict[str, list[Point]]]:

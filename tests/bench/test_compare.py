@@ -112,8 +112,8 @@ class RunRefuses(unittest.TestCase):
             self.assertTrue(done.stderr.startswith(message), done.stderr)
             self.assertEqual(done.stderr.count("\n"), 1)
 
-    def test_study_and_stability_want_a_machine_s_name(self) -> None:
-        for program in ("study", "stability"):
+    def test_other_programs_want_a_machine_s_name(self) -> None:
+        for program in ("study", "stability", "count"):
             done = subprocess.run([sample.BENCH / program, "--machine"], capture_output=True, text=True, check=False)
             self.assertEqual((done.returncode, done.stdout, done.stderr), (2, "", "error: --machine needs a name\n"))
 
