@@ -17,6 +17,7 @@ from typing import Any
 import history
 import newest
 from command_line import BadInput, Parser, run_main
+from comparison import SINGLE
 from page import absent, bits, broadphase, cases, others, over_time, parts, precision, reduction, scaling, stability
 from page import targets
 from page.figure import Chart, Figure
@@ -88,7 +89,9 @@ def changes_html(changes: list[over_time.Change]) -> str:
                        [("slower", "slower"), ("faster", "faster"), ("same", "within noise")])
     rows = over_time.change_rows(changes)
     headers = ["benchmark", "before", "median", "latest", "median", "change", "verdict"]
-    return tag("details", f"<summary>Latest commit against the one before: {counts}</summary>" +
+    single = any(not point.spread.repeated for change in changes for point in (change.before, change.after))
+    rule = tag("p", f"By the rule of bench/compare {SINGLE}.", "soft small") if single else ""
+    return tag("details", f"<summary>Latest commit against the one before: {counts}</summary>" + rule +
                (table(headers, rows) if rows else ""))
 
 

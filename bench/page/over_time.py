@@ -22,7 +22,6 @@ class Point:
     commit: str
     spread: Spread
     repetitions: int
-    ranged: bool  # a run has repeated it: single measurements of several runs are no range
 
 
 
@@ -60,9 +59,9 @@ def _point(records: list[Record]) -> Point:
     dirty = last.get("dirty")
     commit = last["commit"] + (" with changes" if dirty else "")
     spread = Spread(statistics.median(time["median"] for time in times), min(time["min"] for time in times),
-                    max(time["max"] for time in times))
+                    max(time["max"] for time in times), any(time["n"] > 1 for time in times))
     when = _milliseconds(last["date"] if dirty else last["commit_date"])
-    return Point(when, commit, spread, sum(time["n"] for time in times), any(time["n"] > 1 for time in times))
+    return Point(when, commit, spread, sum(time["n"] for time in times))
 
 
 def _milliseconds(date: str) -> float:
@@ -77,7 +76,7 @@ def chart_data(place: dict[str, list[Point]]) -> dict[str, Any]:
     and greatest are null."""
     def seconds(point: Point) -> list[float | None]:
         ends = (point.spread.least, point.spread.greatest)
-        return [_short(point.spread.median), *(_short(end) if point.ranged else None for end in ends)]
+        return [_short(point.spread.median), *(_short(end) if point.spread.repeated else None for end in ends)]
     return {benchmark: [[point.when, *seconds(point), point.repetitions, point.commit] for point in row]
             for benchmark, row in place.items()}
 
@@ -97,12 +96,11 @@ class Change:
 
 
 def latest_changes(place: dict[str, list[Point]]) -> list[Change]:
-    """What the latest commit of a place changed, largest change first; benchmarks it did not run are left out, and so
-    are single measurements, whose ranges are unknown."""
+    """What the latest commit of a place changed, largest change first; benchmarks it did not run are left out."""
     latest = max((row[-1].when for row in place.values()), default=0.0)
     changes = [Change(benchmark, row[-2], row[-1], judge(row[-2].spread, row[-1].spread, TOLERANCE))
                for benchmark, row in place.items()
-               if len(row) > 1 and row[-1].when == latest and all(point.ranged for point in row[-2:])]
+               if len(row) > 1 and row[-1].when == latest]
     return sorted(changes, key=lambda change: -abs(change.after.spread.median / change.before.spread.median - 1))
 
 

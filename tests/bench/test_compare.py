@@ -24,6 +24,13 @@ class Judging(unittest.TestCase):
         self.assertEqual(judge(Spread(1, 1, 1), Spread(1.04, 1.04, 1.04)), "same")
         self.assertEqual(judge(Spread(1, 1, 1), Spread(1.04, 1.04, 1.04), 0.03), "slower")
 
+    def test_single_measurements_have_a_tolerance_of_their_own(self) -> None:
+        once, more, most = (Spread(time, time, time, False) for time in (1.0, 1.24, 1.26))
+        self.assertEqual([judge(once, more), judge(once, more, 0.01), judge(once, most)], ["same", "same", "slower"])
+        self.assertEqual([judge(more, once), judge(most, once)], ["same", "faster"])
+        self.assertEqual(judge(once, Spread(1.2, 1.19, 1.21)), "same")  # one side is not enough
+        self.assertEqual(judge(once, most, 0.3), "same")
+
 
 class Compare(unittest.TestCase):
     def setUp(self) -> None:
@@ -85,8 +92,23 @@ class Compare(unittest.TestCase):
             self.assertIn(f"warning: {what}", done.stderr)
 
     def test_single_measurements_are_warned_of(self) -> None:
-        done = self.compare(self.before, self.store("b", sample.google_json(repetitions=1)))
-        self.assertIn("warning: B has single measurements", done.stderr)
+        once = self.store("b", sample.google_json(repetitions=1, slower={SLOW: 1.2, FAST: 1.3}))
+        done = self.compare(self.before, once)
+        self.assertEqual(done.stderr, "warning: B has no ranges: single measurements count as slower or faster from 25 % on; "
+                                      "less needs bench/run --full on both sides\n")
+        self.assertEqual(done.returncode, 5)
+        self.assertRegex(done.stdout, rf"(?m)^{FAST} .* slower$")
+        self.assertNotIn(SLOW, done.stdout)
+
+    def test_what_gave_up_is_a_failure(self) -> None:
+        data = sample.google_json()
+        data["benchmarks"] = [entry for entry in data["benchmarks"] if entry["run_name"] != FAST]
+        broken = self.store("b", {**data, "benchmarks": [*data["benchmarks"], sample.gave_up(FAST, "why")]})
+        done = self.compare(self.before, broken)
+        self.assertEqual(done.returncode, 5, done.stderr)
+        self.assertRegex(done.stdout, rf"(?m)^{FAST} .* gave up$")
+        self.assertRegex(done.stdout, r", 0 missing, 1 gave up\n$")
+        self.assertEqual(self.compare(broken, self.before).returncode, 0)
 
     def test_bad_input_is_one_line_and_exit_code_2(self) -> None:
         broken = self.folder / "broken.json"

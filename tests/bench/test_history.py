@@ -7,6 +7,8 @@ import unittest
 from pathlib import Path
 
 import sample
+import comparison
+import dashboard
 import history
 from command_line import BadInput
 from page import over_time
@@ -115,11 +117,15 @@ class OverTime(unittest.TestCase):
         later = {"commit": "bbbbbbbbbbbb", "commit_date": "2026-02-20T11:00:00Z"}
         quick = [timed(1.0), timed(1.01), timed(2.0, **later), timed(2.01, **later)]
         (place,) = over_time.points(quick).values()
-        self.assertEqual(over_time.latest_changes(place), [])
+        self.assertEqual([change.verdict for change in over_time.latest_changes(place)], ["slower"])
+        self.assertIn(comparison.SINGLE, dashboard.changes_html(over_time.latest_changes(place)))
         self.assertEqual([point[1:5] for point in over_time.chart_data(place)["case/x"]],
                          [[1.005, None, None, 2], [2.005, None, None, 2]])
-        (place,) = over_time.points([timed(1.0, 5), timed(2.0, 5, **later)]).values()
-        self.assertEqual([change.verdict for change in over_time.latest_changes(place)], ["slower"])
+        for repetitions, seconds, verdict in ((5, 1.2, "slower"), (1, 1.2, "same"), (1, 1.3, "slower")):
+            (place,) = over_time.points([timed(1.0, 5), timed(seconds, repetitions, **later)]).values()
+            changes = over_time.latest_changes(place)
+            self.assertEqual([change.verdict for change in changes], [verdict])
+            self.assertEqual(comparison.SINGLE in dashboard.changes_html(changes), repetitions == 1)
 
     def test_runs_of_one_commit_are_one_point_but_uncommitted_changes_are_not(self) -> None:
         again = dict(self.records[0], run="again")
