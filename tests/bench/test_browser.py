@@ -70,8 +70,8 @@ class Browser(unittest.TestCase):
             verdict = self.look(dark=dark)
             self.assertEqual(self.unseen(verdict), [])
             titles = {title for title, _, _ in verdict["seen"]}
-            # 13 figures of the run, one of the study, four of the matrix, a history for each of two machines
-            self.assertEqual(len(titles), 20, titles)
+            # 16 figures of the run, one of the study, four of the matrix, a history for each of two machines
+            self.assertEqual(len(titles), 23, titles)
 
     def test_an_emptied_curve_would_be_noticed(self) -> None:
         self.assertEqual(self.unseen(self.look(HIDE_ONE_CURVE)), [("Speed-up with threads", "capture, whole")])

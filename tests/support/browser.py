@@ -1,4 +1,5 @@
-"""A page in a browser: a script added to it looks around and tells what it has seen to the server that it comes from.
+"""A page in a browser, opened from disk as users do: a script added to it looks around and tells what it has seen to a
+server on this machine.
 
 The browser's own clock counts: with a virtual one Chromium ends before frames are drawn, where the machine is busy.
 """
@@ -43,27 +44,19 @@ function count(context, left, top, width, height, colour) {
 }
 function tell(seen) {
   const dark = matchMedia('(prefers-color-scheme: dark)').matches;
-  fetch('/', {method: 'POST', body: JSON.stringify({...seen, dark, errors: window.pageErrors})});
+  const body = JSON.stringify({...seen, dark, address: location.href, errors: window.pageErrors});
+  fetch('LISTENER', {method: 'POST', mode: 'no-cors', body}).catch(error => console.error(String(error)));
 }
 </script>"""
 
 
-def serve(page: bytes, told: queue.Queue[bytes]) -> ThreadingHTTPServer:
-    """A server on this machine of one page, which puts what is posted to it into `told`."""
+def listen(told: queue.Queue[bytes]) -> ThreadingHTTPServer:
+    """A server on this machine that puts what is posted to it into `told`."""
     class Handler(BaseHTTPRequestHandler):
-        def do_GET(self) -> None:
-            self.answer(page if self.path == "/" else b"", 200 if self.path == "/" else 404)
-
         def do_POST(self) -> None:
             told.put(self.rfile.read(int(self.headers["Content-Length"])))
-            self.answer(b"", 200)
-
-        def answer(self, body: bytes, code: int) -> None:
-            self.send_response(code)
-            self.send_header("Content-Type", "text/html; charset=utf-8")
-            self.send_header("Content-Length", str(len(body)))
+            self.send_response(204)
             self.end_headers()
-            self.wfile.write(body)
 
         def log_message(self, format: str, *args: Any) -> None:
             pass
@@ -76,13 +69,17 @@ def serve(page: bytes, told: queue.Queue[bytes]) -> ThreadingHTTPServer:
 def visit(page: str, script: str, folder: Path, options: list[str], dark: bool = False) -> dict[str, Any]:
     """What `script` tells of the page, in light or dark. AssertionError for errors on the page, and where it tells
     nothing."""
-    text = page.replace("<head>", "<head>" + NOTE_ERRORS, 1).replace("</body>", TOOLS + script + "</body>")
     told: queue.Queue[bytes] = queue.Queue()
-    with serve(text.encode(), told) as server, (folder / "browser.log").open("w") as log:
+    file = folder / "visited.html"
+    with listen(told) as server, (folder / "browser.log").open("w") as log:
+        tools = TOOLS.replace("LISTENER", f"http://127.0.0.1:{server.server_port}/")
+        file.write_text(page.replace("<head>", "<head>" + NOTE_ERRORS, 1).replace("</body>", tools + script + "</body>"),
+                        encoding="utf-8")
         browser = subprocess.Popen(
             [str(CHROMIUM), "--headless", "--no-sandbox", "--disable-dev-shm-usage", "--no-proxy-server", *options,
              f"--user-data-dir={folder / 'profile'}", "--window-size=1280,1000", "--remote-debugging-port=0",
-             f"--blink-settings=preferredColorScheme={0 if dark else 1}", f"http://127.0.0.1:{server.server_port}/"],
+             "--enable-logging=stderr", "--disable-features=LocalNetworkAccessChecks",  # a page may tell this machine
+             f"--blink-settings=preferredColorScheme={0 if dark else 1}", file.resolve().as_uri()],
             stdout=log, stderr=log, start_new_session=True)
         try:
             seen: dict[str, Any] = json.loads(told.get(timeout=120))
@@ -92,6 +89,6 @@ def visit(page: str, script: str, folder: Path, options: list[str], dark: bool =
             os.killpg(browser.pid, signal.SIGKILL)  # with the processes that it has started
             browser.wait()
             server.shutdown()
-    if seen["errors"] or seen["dark"] != dark:
-        raise AssertionError(f"errors: {seen['errors']}, dark: {seen['dark']}")
+    if seen["errors"] or seen["dark"] != dark or not seen["address"].startswith("file://"):
+        raise AssertionError(f"errors: {seen['errors']}, dark: {seen['dark']}, opened from {seen['address']}")
     return seen
