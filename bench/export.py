@@ -6,6 +6,8 @@
 bencher.json                  Bencher Metric Format: `bencher run --adapter json --file bencher.json`
 github-action-benchmark.json  `tool: customSmallerIsBetter` of github-action-benchmark
 results.csv                   one line for each benchmark, counters as columns
+
+Times of all three go by the clock that results.csv names, the wall's or, as for elements and kernels, the processor's.
 """
 from __future__ import annotations
 
@@ -45,11 +47,12 @@ def as_csv(run: Run) -> str:
     counters = sorted({key for result in _timed(run) for key in result.counters})
     text = io.StringIO()
     writer = csv.writer(text, lineterminator="\n")
-    writer.writerow(["date", "commit", "machine_id", "isa", "benchmark", "median_s", "min_s", "max_s", "n", *counters])
+    writer.writerow(["date", "commit", "machine_id", "isa", "compiler", "mode", "benchmark", "clock", "median_s", "min_s",
+                     "max_s", "n", *counters])
+    about = [run.date, run.about("commit"), run.machine_id, *(run.about(key) for key in ("isa", "compiler", "mode"))]
     for result in _timed(run):
-        writer.writerow([run.date, run.about("commit"), run.machine_id, run.about("isa"), result.name, result.median,
-                         min(result.seconds), max(result.seconds), len(result.seconds),
-                         *(result.counters.get(key, "") for key in counters)])
+        writer.writerow([*about, result.name, result.clock, result.median, min(result.seconds), max(result.seconds),
+                         len(result.seconds), *(result.counters.get(key, "") for key in counters)])
     return text.getvalue()
 
 

@@ -62,12 +62,15 @@ class Exports(unittest.TestCase):
         with (self.folder / "results.csv").open(encoding="utf-8", newline="") as file:
             rows = list(csv.DictReader(file))
         self.assertEqual([row["benchmark"] for row in rows], list(self.timed))
-        self.assertEqual(list(rows[0])[:9], ["date", "commit", "machine_id", "isa", "benchmark", "median_s", "min_s",
-                                             "max_s", "n"])
+        self.assertEqual(list(rows[0])[:12], ["date", "commit", "machine_id", "isa", "compiler", "mode", "benchmark",
+                                              "clock", "median_s", "min_s", "max_s", "n"])
+        self.assertEqual({(row["compiler"], row["mode"]) for row in rows}, {("GNU 12.2.0", "full")})
+        self.assertEqual({row["clock"] for row in rows if row["benchmark"].startswith("kernel/")}, {"processor"})
+        self.assertEqual({row["clock"] for row in rows if row["benchmark"].startswith("case/")}, {"wall"})
         for row in rows:
             result = self.timed[row["benchmark"]]
             self.assertEqual(float(row["median_s"]), result.median)
-            self.assertEqual({key: float(value) for key, value in list(row.items())[9:] if value}, result.counters)
+            self.assertEqual({key: float(value) for key, value in list(row.items())[12:] if value}, result.counters)
 
 
 if __name__ == "__main__":
