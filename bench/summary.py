@@ -17,18 +17,18 @@ from text import number, table
 
 def words(cell: Cell) -> str:
     """A number for people, a dash for none."""
-    return "-" if cell is None else cell if isinstance(cell, str) else number(cell)
+    return "-" if cell is None else number(cell) if isinstance(cell, float) else str(cell)
 
 
 def summary(run: Run) -> str:
-    """Cases with one thread and with the best number of threads; else how many other benchmarks the run holds."""
+    """Cases with one thread and the best with more; else how many other benchmarks the run holds."""
     rows = []
-    for case, single, fastest, threads, paper, ratio in run_time(run).rows:
-        rows.append([str(case), words(single), words(fastest), str(threads), words(paper),
+    for case, single, more, threads, paper, ratio, _ in run_time(run).rows:
+        rows.append([str(case), words(single), words(more), words(threads), words(paper),
                      f"{words(ratio)} times faster" if ratio else ""])
     if not rows:
         return f"{len(run.results)} benchmarks, none of them a case: the page and the exports have their figures"
-    headers = ["minutes per simulated second", "1 thread", "fastest", "threads", "paper", ""]
+    headers = ["minutes per simulated second", "1 thread", "more threads", "how many", "paper", ""]
     return table(headers, rows) + f"\nthe paper's: {MACHINE}"
 
 

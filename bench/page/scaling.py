@@ -8,6 +8,7 @@ from page.figure import (GREY, Figure, Row, Series, bars, by_scene, column, coun
 from stored_run import Result, Run
 
 MOST_CURVES = 7  # the colours but grey
+LEAST_NODES = 99_000  # of nets whose memory is told: that of smaller ones drowns in what a process takes anyway
 MOST_FLOWN = 0.01  # share of the steps beyond which their mean length says nothing of a single step
 
 
@@ -40,14 +41,12 @@ def growth(run: Run) -> Figure:
     for scene, results in by_scene(of_suite(run, "growth")).items():
         for threads, result in results.items():
             rows.append([nodes(scene, result), whole(result.counters.get("elements")), threads, per_update_ns(result),
-                         counter(result, "bytes_per_second", 1e-9), counter(result, "fraction_of_triad", 100),
-                         counter(result, "bytes_per_item")])
+                         counter(result, "bytes_per_second", 1e-9), counter(result, "fraction_of_triad", 100)])
     return Figure(
         "Time of one element and step against the size of the net",
         "Level curves are good; a rise marks a cache that the net has outgrown, and more threads should lie lower.",
         measure("^growth/"),
-        ["nodes", "elements", "threads", "ns per element and step", "GB/s of single steps", "share of triad, %",
-         "bytes per item"],
+        ["nodes", "elements", "threads", "ns per element and step", "GB/s of single steps", "share of triad, %"],
         rows, lines(_over_nodes(run, per_update_ns), {"title": "nodes", "log": True},
                     {"title": "time per element and step, ns"}))
 
@@ -80,13 +79,14 @@ def triad(run: Run) -> Figure:
 
 
 def memory(run: Run) -> Figure:
-    """Bytes of memory for each node and element."""
+    """Bytes of memory for each node and element of large nets."""
     def size(result: Result) -> float | None:
-        return counter(result, "bytes_per_item")
+        return counter(result, "bytes_per_item") if result.counters.get("nodes", 0) >= LEAST_NODES else None
     rows: list[Row] = [(series.label, *point) for series in _over_nodes(run, size) for point in series.values]
     return Figure(
         "Memory of each node and element",
-        "Low and level is good: what rises with the size of the net would limit it.",
+        "Low and level is good: what rises with the size of the net would limit it. Nets below 10^5 nodes are left out: "
+        "what a process holds resident says little of so small ones.",
         measure("^growth/"), ["threads", "nodes", "bytes per node and element"], rows,
         lines(_over_nodes(run, size), {"title": "nodes", "log": True}, {"title": "memory per node and element, bytes"}))
 

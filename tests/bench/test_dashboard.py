@@ -65,6 +65,35 @@ class Page(unittest.TestCase):
                           "ring_pull, whole, 200 elements": 10.1, "ring_pull, sliding, 20 elements": None})
         self.assertIn("edge_closure, whole: 1,680 times faster", page)
 
+    def test_no_number_of_threads_is_the_fastest_of_one(self) -> None:
+        run = run_of(sample.google_json(only="case/capture/closing/threads:1"))  # and 16
+        del run.results["case/capture/closing/threads:16"]
+        (row,) = cases.run_time(run).rows
+        self.assertEqual(row[2:4], (None, None))
+        self.assertEqual(len(cases.run_time(run).chart["series"]), 1)
+        self.assertEqual(summary.summary(run).splitlines()[1].split()[3:], ["-", "-", "-"])
+        self.assertNotIn("fastest", summary.summary(run))
+
+    def test_the_time_of_an_element_stands_beside_the_case(self) -> None:
+        rows = {row[0]: row[-1] for row in cases.run_time(run_of(sample.google_json())).rows}
+        self.assertAlmostEqual(float(str(rows["capture, closing"])), 10 / 3)
+
+    def test_a_quick_page_says_what_it_leaves_out(self) -> None:
+        for mode, told in (("quick", True), ("full", False)):
+            page = page_of(sample.google_json(mode=mode))
+            self.assertEqual("Quick runs leave out nets of 10^6 nodes" in page, told)
+
+    def test_the_taut_net_is_explained_where_it_is_shown(self) -> None:
+        data = sample.google_json(only="case/large_capture/")
+        self.assertNotIn("taut by 0.1 %", cases.run_time(run_of(data)).caption)
+        for entry in data["benchmarks"]:
+            entry["run_name"] = entry["run_name"].replace("closing/long", "taut_net")
+        self.assertIn("made soft and taut by 0.1 %", cases.run_time(run_of(data)).caption)
+
+    def test_memory_of_small_nets_is_left_out(self) -> None:
+        figure = scaling.memory(run_of(sample.google_json(only="growth/")))
+        self.assertEqual({row[1] for row in figure.rows}, {99_856, 315_844, 1_000_000})
+
     def test_phases_are_not_compared_with_the_papers_whole_case(self) -> None:
         run = run_of(sample.google_json(only="case/capture/closing"))
         self.assertNotIn("times faster", dashboard.lead(run))
@@ -174,6 +203,7 @@ class Page(unittest.TestCase):
         run = run_of(sample.google_json())
         self.assertIn("a whole run, with its output and, in the rest, its start-up", cases.stages(run).caption)
         self.assertNotIn("one step", cases.stages(run).caption)
+        self.assertIn("Shares are those of the first thread. With AVX-512", cases.stages(run).caption)
         self.assertIn("no bound", parts.element(run).caption)
 
     def test_names_cannot_break_out_of_the_page(self) -> None:
