@@ -1,5 +1,5 @@
-"""Decides whether a benchmark got slower: by its median and by the range of its repetitions. bench/compare and the page's
-history both go by it."""
+"""Decides whether a benchmark got slower: by its median and by the range of its repetitions. bench/compare and the
+page's history both go by it."""
 from __future__ import annotations
 
 from dataclasses import dataclass

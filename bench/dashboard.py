@@ -64,7 +64,14 @@ def history_html(points: dict[str, dict[str, list[over_time.Point]]]) -> str:
     options = "".join(f'<option{" selected" if name == first else ""}>{escape(name)}</option>' for name in benchmarks)
     chooser = f'<p><label>Benchmark <select id="history-benchmark">{options}</select></label></p>'
     figures = "".join(place_html(place, points[place]) for place in points)
-    return chooser + tag("div", figures, "plots")
+    return glance_html(points) + chooser + tag("div", figures, "plots")
+
+
+def glance_html(points: dict[str, dict[str, list[over_time.Point]]]) -> str:
+    """The latest commits at a glance, where there are commits before them."""
+    rows = over_time.headlines(points)
+    headers = ["case, 1 thread", "before", "median", "latest", "median", "change", "verdict", "place"]
+    return tag("div", table(headers, rows), "listing") if rows else ""
 
 
 def place_html(place: str, benchmarks: dict[str, list[over_time.Point]]) -> str:

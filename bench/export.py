@@ -47,8 +47,8 @@ def as_csv(run: Run) -> str:
     counters = sorted({key for result in _timed(run) for key in result.counters})
     text = io.StringIO()
     writer = csv.writer(text, lineterminator="\n")
-    writer.writerow(["date", "commit", "machine_id", "isa", "compiler", "mode", "benchmark", "clock", "median_s", "min_s",
-                     "max_s", "n", *counters])
+    writer.writerow(["date", "commit", "machine_id", "isa", "compiler", "mode", "benchmark", "clock", "median_s",
+                     "min_s", "max_s", "n", *counters])
     about = [run.date, run.about("commit"), run.machine_id, *(run.about(key) for key in ("isa", "compiler", "mode"))]
     for result in _timed(run):
         writer.writerow([*about, result.name, result.clock, result.median, min(result.seconds), max(result.seconds),

@@ -26,7 +26,8 @@ def verdict(run: Run) -> tuple[int, list[str]]:
 
 def main() -> int:
     parser = Parser(prog="bench/verdict.py", description="Says what went wrong in a stored run.",
-                    epilog="Exit codes: 0 nothing, 1 a benchmark gave up, 5 a scene came to different bits, 2 bad input.")
+                    epilog="Exit codes: 0 nothing, 1 a benchmark gave up, 5 a scene came to different bits, "
+                           "2 bad input.")
     parser.add_argument("run", type=Path, metavar="RUN", help="stored run: Google Benchmark's JSON")
     code, sentences = verdict(read_run(parser.parse_args().run))
     for sentence in sentences:

@@ -60,7 +60,8 @@ def _caption(instructions: Instructions | None, repeated: bool) -> str:
     if instructions is None:
         return words + f"Instructions have not been counted: {COMMAND} does it, in a minute."
     date = f", on {instructions['date']}" if instructions.get("date") else ""
-    return words + f"Instructions: {origin(instructions, 'counted')[:-1]}{date}."
+    made = origin(instructions, "counted")
+    return words + f"Instructions: {made[0].lower()}{made[1:-1]}{date}."
 
 
 def _features(instructions: Instructions | None) -> dict[str, dict[str, float]]:

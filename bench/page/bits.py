@@ -45,8 +45,8 @@ def figure(run: Run) -> Figure:
                         _verdict(scene), scene.commit] for scene in scenes(run)]
     return Figure(
         "State hashes",
-        "One scene must come to one hash, with any number of threads and in each repetition; phases and whole runs end in "
-        "different states, so their hashes differ.",
+        "One scene must come to one hash, with any number of threads and in each repetition; phases and whole runs end "
+        "in different states, so their hashes differ.",
         measure("^case/"), ["scene", "threads", "state hash", "verdict", "commit"], rows)
 
 

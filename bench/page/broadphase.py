@@ -1,7 +1,7 @@
 """The figure of the search for near pairs."""
 from __future__ import annotations
 
-from page.figure import Figure, Row, Series, bars, column, first_cells, measure, of_suite, whole
+from page.figure import Figure, Row, Series, bars, column, first_cells, label, measure, of_suite, whole
 from stored_run import Run
 
 
@@ -12,7 +12,8 @@ def figure(run: Run) -> Figure:
         searched = result.counters.get("items_per_second")
         if searched:
             elements, tested, kept = (result.counters.get(key) for key in ("elements", "pairs_tested", "pairs_kept"))
-            rows.append((f"{', '.join(name.parts)} elements", 1e9 / searched, whole(tested), whole(kept),
+            rows.append((f"{whole(elements):,} elements" if elements else label(name.scene),
+                         1e9 / searched, whole(tested), whole(kept),
                          tested / elements if elements and tested is not None else None,
                          100 * kept / tested if tested and kept is not None else None))
     return Figure(

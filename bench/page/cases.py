@@ -46,7 +46,8 @@ def run_time(run: Run) -> Figure:
         rows.append((scene_label(scene, first), times.get(1), times[more] if more else None, more, theirs,
                      theirs / min(times.values()) if theirs else None,
                      per_update_ns(results[1]) if 1 in results else None))
-    series = [Series("Cinch, 1 thread", 0, column(rows, 1)), Series("Cinch, more threads, the best", 2, column(rows, 2)),
+    series = [Series("Cinch, 1 thread", 0, column(rows, 1)),
+              Series("Cinch, more threads, the best", 2, column(rows, 2)),
               Series(f"paper, {paper_times.MACHINE}", GREY, column(rows, 4))]
     taut = any(scene == TAUT_NET for scene in scenes(run))
     return Figure(
@@ -89,9 +90,9 @@ def stages(run: Run) -> Figure:
     return Figure(
         "Where the time goes",
         "Each bar is the time of all steps of a phase, or that of a whole run, with its output and, in the rest, its "
-        "start-up; long stages are worth working on, and few percent for threads meeting is good. Shares are those of the "
-        "first thread. With AVX-512 chains are moved in the pass that computes their forces: axial forces hold that move, "
-        "too.",
+        "start-up; long stages are worth working on, and few percent for threads meeting is good. Shares are those of "
+        "the first thread. With AVX-512 chains are moved in the pass that computes their forces: axial forces hold that "
+        "move, too.",
         measure("^case/"),
         ["case", *(f"{stage.replace('_', ' ')}, %" for stage in shares)], rows, _stacked(categories, shares))
 

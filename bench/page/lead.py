@@ -10,8 +10,8 @@ from paper_times import MACHINE
 from stored_run import Run
 from text import duration, number
 
-QUICK = ("Quick runs leave out nets of 10^6 nodes, large_capture's closing and whole, and whole cases on several threads, "
-         "unless a filter names them, and repeat nothing: bench/run --full has them all, with ranges.")
+QUICK = ("Quick runs leave out nets of 10^6 nodes, large_capture's closing and whole, and whole cases on several "
+         "threads, unless a filter names them, and repeat nothing: bench/run --full has them all, with ranges.")
 
 
 def lead(run: Run) -> str:

@@ -9,7 +9,8 @@ from typing import Any
 
 from comparison import TOLERANCE, Spread, judge
 from history import Record
-from page.figure import Row
+from names import parse
+from page.figure import Badge, Cell, Row, label
 from stored_run import MADE_WITH, PROCESSOR
 from text import duration
 
@@ -106,10 +107,26 @@ def latest_changes(place: dict[str, list[Point]]) -> list[Change]:
 
 def change_rows(changes: list[Change]) -> list[Row]:
     """Rows of the table of changes; what stayed the same is left out."""
-    return [[change.benchmark, change.before.commit, duration(change.before.spread.median), change.after.commit,
-             duration(change.after.spread.median),
-             f"{100 * (change.after.spread.median / change.before.spread.median - 1):+.1f} %", change.verdict]
-            for change in changes if change.verdict != "same"]
+    return [change_row(change) for change in changes if change.verdict != "same"]
+
+
+def change_row(change: Change) -> list[Cell]:
+    before, after = change.before.spread.median, change.after.spread.median
+    return [change.benchmark, change.before.commit, duration(before), change.after.commit, duration(after),
+            f"{100 * (after / before - 1):+.1f} %", change.verdict]
+
+
+def headlines(points_of: dict[str, dict[str, list[Point]]]) -> list[Row]:
+    """Rows of a table: whole cases and closing phases with one thread at each place's latest commit against the one
+    before, what stayed the same, too."""
+    rows: list[Row] = []
+    for place, benchmarks in points_of.items():
+        for change in sorted(latest_changes(benchmarks), key=lambda change: change.benchmark):
+            name = parse(change.benchmark)
+            if name.suite == "case" and name.parts[-1:] in (("whole",), ("closing",)) and name.threads == 1:
+                look = {"slower": "poor", "faster": "good", "same": "none"}[change.verdict]
+                rows.append([label(name.scene), *change_row(change)[1:-1], Badge(change.verdict, look), place])
+    return rows
 
 
 def first_choice(benchmarks: list[str]) -> str:

@@ -21,8 +21,8 @@ def figure(run: Run) -> Figure:
     series = [Series(words, colour, column(rows, i)) for i, (words, colour) in enumerate(WAYS.values(), 1)]
     return Figure(
         "Ways to sum forces to nodes",
-        "Shorter is better: the same net's forces computed and summed and its nodes moved, in three ways. A gather reads "
-        "each node's elements, a scatter adds each element's force to its ends by colours, private sums are one array "
+        "Shorter is better: the same net's forces computed and summed and its nodes moved, in three ways. A gather "
+        "reads each node's elements, a scatter adds each element's force to its ends by colours, private sums are one array "
         "a thread, added up afterwards.",
         measure("^reduction/"), ["net", *(f"{words}, ns" for words, _ in WAYS.values())], rows,
         bars(first_cells(rows), series, "time per element and step, ns"))

@@ -85,8 +85,8 @@ def memory(run: Run) -> Figure:
     rows: list[Row] = [(series.label, *point) for series in _over_nodes(run, size) for point in series.values]
     return Figure(
         "Memory of each node and element",
-        "Low and level is good: what rises with the size of the net would limit it. Nets below 10^5 nodes are left out: "
-        "what a process holds resident says little of so small ones.",
+        "Low and level is good: what rises with the size of the net would limit it. Nets below 10^5 nodes are left "
+        "out: what a process holds resident says little of so small ones.",
         measure("^growth/"), ["threads", "nodes", "bytes per node and element"], rows,
         lines(_over_nodes(run, size), {"title": "nodes", "log": True}, {"title": "memory per node and element, bytes"}))
 

@@ -164,7 +164,8 @@ TARGETS = [
     Target("large_capture closing, 1 thread", "an element at most 1.3 times that of capture closing",
            at_most(1.3, "times", lambda m: ratio(m.update_ns(LARGE), m.update_ns(CLOSING))),
            measure("^case/(large_)?capture/closing")),
-    Target("large_capture closing, 2 threads", "efficiency of 0.9 or more", at_least(0.9, "", _efficiency(2)), IN_LARGE),
+    Target("large_capture closing, 2 threads", "efficiency of 0.9 or more", at_least(0.9, "", _efficiency(2)),
+           IN_LARGE),
     Target("large_capture closing, 16 threads", "efficiency of 0.8 or more", at_least(0.8, "", _efficiency(16)),
            f"on 16 cores: {IN_LARGE}"),
     Target("Net of 10^6 knots, 1 thread", "at least 60 % of the triad",
@@ -192,13 +193,13 @@ def figure(run: Run, instructions: absent.Instructions | None) -> Figure:
         verdict = "not measured" if finding is None else "met" if finding.met else "missed"
         counts[verdict] += 1
         look = {"met": "good", "missed": "poor", "not measured": "none"}[verdict]
-        rows.append([target.part, target.goal, finding.words if finding else None, Badge(verdict, look),
+        rows.append([target.part, target.goal, finding.words if finding else "–", Badge(verdict, look),
                      "" if finding else target.command])
     return Figure(", ".join(f"{count} {verdict}" for verdict, count in counts.items()), _caption(run), "",
-                  ["part", "target", "measured", "verdict", "to measure it"], rows)
+                  ["part", "target", "measured", "verdict", "to measure it" if counts["not measured"] else ""], rows)
 
 
 def _caption(run: Run) -> str:
     here = "" if run.about("isa") == "v4" else f" This run's instruction set is {run.about('isa')}."
-    return ("Targets were set before the first line was written, for one core of a machine with AVX-512 where they name no "
-            f"threads; times of other machines miss or meet them for other reasons than the code.{here}")
+    return ("Targets were set before the first line was written, for one core of a machine with AVX-512 where they name "
+            f"no threads; times of other machines miss or meet them for other reasons than the code.{here}")

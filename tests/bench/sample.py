@@ -73,7 +73,8 @@ def of_cases() -> Iterator[Benchmark]:
             gain = speed_up(threads, serial)
             meeting = 0.0 if threads == 1 else min(0.6, serial)
             steps = {} if case.endswith("/whole") else {
-                "steps_per_second": gain * 1.25e5 * (1.04 if "without" in case else 1), "flown_share": 0.9 if "deployment" in case else 0.004}
+                "steps_per_second": gain * 1.25e5 * (1.04 if "without" in case else 1),
+                "flown_share": 0.9 if "deployment" in case else 0.004}
             shares = {"contacts": 0.3, "axial_forces": 0.3, "gather_and_move": 0.2, "broadphase": 0.1, "observe": 0.05}
             yield f"case/{case}/threads:{threads}", minutes / gain, {
                 "minutes_per_simulated_second": minutes / gain, "elements": elements, "nodes": elements * 0.9,
@@ -134,7 +135,8 @@ def google_json(machine: str = "lab", commit: str = "aaaaaaaaaaaa", *, slower: d
                 repetitions: int = 5, seed: int = 1, only: str = "", **context: str) -> dict[str, Any]:
     """A whole run. `slower` multiplies times by the benchmark's name, `only` keeps names that begin so."""
     noise, factors = random.Random(seed), slower or {}
-    benchmarks = [entry for group in (of_cases(), of_growth(), of_parts(), of_ways()) for name, seconds, counters in group
+    groups = (of_cases(), of_growth(), of_parts(), of_ways())
+    benchmarks = [entry for group in groups for name, seconds, counters in group
                   if name.startswith(only)
                   for entry in entries(name, seconds * factors.get(name, 1), counters, repetitions, noise)]
     about = {"date": COMMITS.get(commit, "2026-05-01T12:00:00+00:00"), "host_name": "h", "num_cpus": 16,

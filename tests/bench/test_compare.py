@@ -94,8 +94,8 @@ class Compare(unittest.TestCase):
     def test_single_measurements_are_warned_of(self) -> None:
         once = self.store("b", sample.google_json(repetitions=1, slower={SLOW: 1.2, FAST: 1.3}))
         done = self.compare(self.before, once)
-        self.assertEqual(done.stderr, "warning: B has no ranges: single measurements count as slower or faster from 25 % on; "
-                                      "less needs bench/run --full on both sides\n")
+        self.assertEqual(done.stderr, "warning: B has no ranges: single measurements count as slower or faster from 25 % "
+                                      "on; less needs bench/run --full on both sides\n")
         self.assertEqual(done.returncode, 5)
         self.assertRegex(done.stdout, rf"(?m)^{FAST} .* slower$")
         self.assertNotIn(SLOW, done.stdout)

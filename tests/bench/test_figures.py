@@ -26,6 +26,8 @@ class Others(unittest.TestCase):
         chain = rows["chain of 200 elements: LAMMPS"][1]
         assert isinstance(chain, float)
         self.assertAlmostEqual(chain, 200 / 7e8 * 1e6 / 60)
+        self.assertIn("Cinch is 1.87 (net of 1,737 nodes: LAMMPS) to 153 (chain of 200 elements: Project Chrono) times "
+                      "as fast.", figure.caption)
 
     def test_scenes_that_are_not_measured_are_named_not_drawn(self) -> None:
         figure = others.figure(sample.run_of(sample.google_json(only="element/")))
@@ -49,12 +51,13 @@ class Ways(unittest.TestCase):
     def test_reductions_stand_side_by_side(self) -> None:
         figure = reduction.figure(sample.run_of(sample.google_json(only="reduction/")))
         self.assertEqual(figure.headers, ["net", "gather (Cinch's), ns", "coloured scatter, ns", "private sums, ns"])
-        self.assertEqual([str(row[0]) for row in figure.rows[4:6]], ["1,024 nodes, 16 threads", "99,856 nodes, 1 thread"])
+        self.assertEqual([str(row[0]) for row in figure.rows[4:6]],
+                         ["1,024 nodes, 16 threads", "99,856 nodes, 1 thread"])
         self.assertEqual([round(float(str(cell)), 3) for cell in figure.rows[5][1:]], [2.5, 4.167, 3.125])
 
     def test_searches_tell_pairs_tested_and_kept(self) -> None:
         figure = broadphase.figure(sample.run_of(sample.google_json(only="broadphase/")))
-        self.assertEqual(list(figure.rows[0]), ["1000 elements", 100.0, 40_000, 3_000, 40.0, 7.5])
+        self.assertEqual(list(figure.rows[0]), ["1,000 elements", 100.0, 40_000, 3_000, 40.0, 7.5])
 
     def test_small_nets_stand_beside_the_chains(self) -> None:
         rows = {str(row[0]): row for row in parts.element(sample.run_of(sample.google_json(only="element/"))).rows}

@@ -12,6 +12,7 @@ import dashboard
 import history
 from command_line import BadInput
 from page import over_time
+from page.figure import Badge
 from stored_run import read_run
 
 
@@ -142,6 +143,14 @@ class OverTime(unittest.TestCase):
         (machine,) = over_time.points([old, record]).values()
         self.assertEqual({name: [point.repetitions for point in row] for name, row in machine.items()},
                          {"element/bare/200 (on the wall)": [5], "element/bare/200": [5]})
+
+    def test_headlines_tell_of_each_place_what_the_latest_commit_changed(self) -> None:
+        rows = over_time.headlines(over_time.points(self.records))
+        self.assertEqual(len(rows), 2 * 6)
+        (row,) = (row for row in rows if row[0] == "capture, whole" and row[-1] == LAB)
+        self.assertEqual(row[1:4:2], ["bbbbbbbbbbbb", "cccccccccccc"])
+        self.assertEqual(row[6].words if isinstance(row[6], Badge) else "", "faster")
+        self.assertEqual(over_time.headlines(over_time.points(self.records[:1])), [])
 
     def test_latest_changes(self) -> None:
         machine = over_time.points(self.records)[LAB]

@@ -156,8 +156,8 @@ class FromEndToEnd(unittest.TestCase):
     def test_without_valgrind_it_is_warned(self) -> None:
         self.valgrind("exit 1", counts=0)
         done = self.bench(sample.google_json(only="element/"))
-        self.assertEqual((done.returncode, done.stderr), (0, "warning: no valgrind: the page has no new instructions of "
-                                                             "absent features\n"))
+        self.assertEqual((done.returncode, done.stderr),
+                         (0, "warning: no valgrind: the page has no new instructions of absent features\n"))
         self.assertFalse((self.root / "build/bench/instructions.json").exists())
 
     def test_a_count_that_fails_leaves_the_page_and_exit_code_1(self) -> None:

@@ -73,8 +73,8 @@ def visit(page: str, script: str, folder: Path, options: list[str], dark: bool =
     file = folder / "visited.html"
     with listen(told) as server, (folder / "browser.log").open("w") as log:
         tools = TOOLS.replace("LISTENER", f"http://127.0.0.1:{server.server_port}/")
-        file.write_text(page.replace("<head>", "<head>" + NOTE_ERRORS, 1).replace("</body>", tools + script + "</body>"),
-                        encoding="utf-8")
+        text = page.replace("<head>", "<head>" + NOTE_ERRORS, 1).replace("</body>", tools + script + "</body>")
+        file.write_text(text, encoding="utf-8")
         browser = subprocess.Popen(
             [str(CHROMIUM), "--headless", "--no-sandbox", "--disable-dev-shm-usage", "--no-proxy-server", *options,
              f"--user-data-dir={folder / 'profile'}", "--window-size=1280,1000", "--remote-debugging-port=0",
