@@ -47,8 +47,9 @@ def figure(run: Run, instructions: Instructions | None) -> Figure:
              for feature in dict.fromkeys([*counts, *sides])]
     rows: list[Row] = [row for row in costs if row[1] is not None or row[2] is not None]
     repeated = all(len(result.seconds) > 1 for both in sides.values() for result in both.values())
-    series = [Series("instructions", 1, column(rows, 1)), Series("time", 0, column(rows, 2) if repeated else [])]
-    chart = bars(first_cells(rows), series, "extra cost of a step, %")
+    drawn = [row for row in rows if repeated or row[1] is not None]
+    series = [Series("instructions", 1, column(drawn, 1)), Series("time", 0, column(drawn, 2) if repeated else [])]
+    chart = bars(first_cells(drawn), series, "extra cost of a step, %")
     return Figure("What absent features cost", _caption(instructions, repeated), measure("^absent/"),
                   ["feature", "extra instructions, %", "extra time, %"], rows, chart if chart["series"] else {})
 

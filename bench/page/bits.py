@@ -2,9 +2,10 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Iterable
 
 from page.figure import Badge, Figure, Row, by_scene, label, measure, of_suite
-from stored_run import Result, Run
+from stored_run import Run
 
 
 @dataclass(frozen=True)
@@ -13,8 +14,11 @@ class Scene:
 
     name: str
     commit: str
-    threads: tuple[int, ...]
-    hashes: tuple[str, ...]  # each once
+    hashes: dict[str, list[int]]  # each with the numbers of threads that came to it
+
+    @property
+    def threads(self) -> tuple[int, ...]:
+        return tuple(sorted({threads for of_hash in self.hashes.values() for threads in of_hash}))
 
     @property
     def differs(self) -> bool:
@@ -23,26 +27,27 @@ class Scene:
 
 def scenes(run: Run) -> list[Scene]:
     """All scenes with a hash. Those of another run have a row of their own: other code may have other bits."""
-    found: dict[tuple[str, str], list[Result]] = {}
+    found: dict[tuple[str, str], dict[str, list[int]]] = {}
     for scene, results in by_scene(of_suite(run, "case")).items():
-        for result in results.values():
-            if result.labels:
-                found.setdefault((scene, run.commit_of(result.name)), []).append(result)
-    return [Scene(scene, commit, tuple(result.omp_threads or 1 for result in results),
-                  tuple(dict.fromkeys(one for result in results for one in result.labels)))
-            for (scene, commit), results in found.items()]
+        for threads, result in results.items():
+            for state_hash in result.labels:
+                at_commit = found.setdefault((scene, run.commit_of(result.name)), {})
+                at_commit.setdefault(state_hash, []).append(threads)
+    return [Scene(scene, commit, hashes) for (scene, commit), hashes in found.items()]
 
 
 def differences(run: Run) -> list[str]:
     """A sentence for each scene whose bits hang on the number of threads, or on chance."""
-    return [f"{scene.name} came to different bits: state hashes {', '.join(scene.hashes)} with {_threads(scene)}"
+    return [f"{scene.name} came to different bits: " + "; ".join(
+                f"{state_hash} with {_words(threads)} thread{'s' * (threads != [1])}"
+                for state_hash, threads in scene.hashes.items())
             for scene in scenes(run) if scene.differs]
 
 
 def figure(run: Run) -> Figure:
     """Each scene with its threads and what they came to."""
-    rows: list[Row] = [[label(scene.name), ", ".join(map(str, scene.threads)), ", ".join(scene.hashes),
-                        _verdict(scene), scene.commit] for scene in scenes(run)]
+    rows: list[Row] = [[label(scene.name), _words(scene.threads), ", ".join(scene.hashes), _verdict(scene),
+                        scene.commit] for scene in scenes(run)]
     return Figure(
         "State hashes",
         "One scene must come to one hash, with any number of threads and in each repetition; phases and whole runs end "
@@ -56,5 +61,5 @@ def _verdict(scene: Scene) -> Badge:
     return Badge("same", "good") if len(scene.threads) > 1 else Badge("one number of threads only", "none")
 
 
-def _threads(scene: Scene) -> str:
-    return f"{', '.join(map(str, scene.threads))} thread{'s' * (scene.threads != (1,))}"
+def _words(threads: Iterable[int]) -> str:
+    return ", ".join(map(str, threads))

@@ -1,6 +1,7 @@
 """The page in a browser: every curve and bar is there to be seen, in light and in dark.
 
-A script added to the page counts the pixels of each dataset's colour inside its chart. Charts that are emptied on purpose show that the test would notice.
+A script added to the page counts the pixels of each dataset's colour inside its chart. Charts that are emptied on
+purpose show that the test would notice.
 """
 from __future__ import annotations
 

@@ -77,6 +77,7 @@ class Absent(unittest.TestCase):
         self.assertEqual(self.labels(5), ["instructions", "time"])
         self.assertEqual(self.labels(1), ["instructions"])
         run = sample.run_of(sample.google_json(only="absent/", repetitions=1))
+        self.assertEqual(absent.figure(run, sample.INSTRUCTIONS).chart["categories"], ["rings", "balls"])
         figure = absent.figure(run, None)
         self.assertEqual(figure.headers, ["feature", "extra instructions, %", "extra time, %"])
         self.assertTrue(all(isinstance(row[2], float) for row in figure.rows))

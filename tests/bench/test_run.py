@@ -141,7 +141,7 @@ class FromEndToEnd(unittest.TestCase):
         data["benchmarks"][0]["label"] = "0x1"
         done = self.bench(data)
         self.assertEqual(done.returncode, 5)
-        self.assertRegex(done.stderr, r"^error: case/capture/closing came to different bits: state hashes 0x1, .*\n$")
+        self.assertRegex(done.stderr, r"^error: case/capture/closing came to different bits: 0x1 with 1 thread; .*\n$")
         self.assert_page('class="alarm"')
         self.assertTrue(self.exported())
 

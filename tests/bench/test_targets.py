@@ -114,9 +114,9 @@ class Bits(unittest.TestCase):
         data = changed({f"{CLOSING}/threads:8": {"label": "0x<1>"}})
         self.assertEqual(self.verdicts(data)["capture, closing"], "DIFFERS")
         self.assertEqual(row("Bits", data)[:2], ["1 of 9 scenes differ", "missed"])
-        self.assertIn('<p class="alarm">case/capture/closing came to different bits: state hashes ',
-                      lead.alarms(sample.run_of(data)))
-        self.assertIn("0x&lt;1&gt; with 1, 2, 4, 8, 16 threads</p>", lead.alarms(sample.run_of(data)))
+        self.assertRegex(lead.alarms(sample.run_of(data)),
+                         '<p class="alarm">case/capture/closing came to different bits: 0x[0-9a-f]{16} with 1, 2, 4, 16 '
+                         "threads; 0x&lt;1&gt; with 8 threads</p>")
 
     def test_another_hash_in_one_repetition_is_a_difference(self) -> None:
         data = sample.google_json(only="case/ring_pull/sliding")
