@@ -10,6 +10,7 @@
 #include "film.hpp"
 #include "output/summary_json.hpp"
 #include "scenes.hpp"
+#include "store/fields.hpp"
 #include "temporary_folder.hpp"
 
 namespace cinch::bench {
@@ -37,6 +38,7 @@ void measure(benchmark::State& state, Simulation& simulation, std::int64_t batch
   count_simulated(state, steps * simulation.stepper().plan().dt);
   count_scene(state, model.nodes, model.elements, simulation.threads());
   count_shares(state, seconds, wall);
+  tell_bits(state, state_hash(simulation.state()));
 }
 
 // The flight unfolds the stowed net, from the first jerks on to the ball; the closing phase has its threads
@@ -48,6 +50,25 @@ void capture(benchmark::State& state, Stretch stretch, int threads) {
   static const Film film(scene, {deployment.from, closing.from});
   Simulation simulation(scene, threads);
   film.wind(simulation, stretch.from);
+  measure(state, simulation, stretch.batch);
+}
+
+// The same states: what is dissipated changes nothing of the motion.
+void capture_without_ledger(benchmark::State& state, Stretch stretch, int threads) {
+  static const Scene scene = read_case(case_file("capture"), {{"output.ledger", "false"}});
+  static const Film film(scene, {closing.from});
+  Simulation simulation(scene, threads);
+  film.wind(simulation, stretch.from);
+  measure(state, simulation, stretch.batch);
+}
+
+// The thread has slid through the ring by half of its way; the edge is half closed.
+constexpr Stretch ring_sliding{0.5, 2000, 50}, edge_closing{0.25, 1000, 50};
+
+void short_case(benchmark::State& state, const std::string& name, Stretch stretch, int threads) {
+  const Scene scene = read_case(case_file(name));
+  Simulation simulation(scene, threads);
+  simulation.advance_to(simulation.preparation().timeline.step_at(stretch.from));
   measure(state, simulation, stretch.batch);
 }
 
@@ -97,6 +118,7 @@ void whole(benchmark::State& state, const std::string& name, int threads) {
   StageSeconds seconds{};
   for (std::size_t s = 0; s < stage_count; ++s) seconds[s] = summary.stages.at(s).seconds;
   count_shares(state, seconds, wall);
+  tell_bits(state, summary.state_hash);
 }
 
 template <class Run, class... Arguments>
@@ -112,6 +134,13 @@ void add(const std::string& name, std::int64_t iterations, int threads, Run run,
   for (const int threads : thread_counts()) {
     add("capture/deployment", deployment.batches, threads, capture, deployment);
     add("capture/closing", closing.batches, threads, capture, closing);
+    if (threads == 1) {
+      add("capture/closing_without_ledger", closing.batches, threads, capture_without_ledger, closing);
+      add("ring_pull/sliding", ring_sliding.batches, threads, short_case, std::string("ring_pull"),
+          ring_sliding);
+      add("edge_closure/closing", edge_closing.batches, threads, short_case, std::string("edge_closure"),
+          edge_closing);
+    }
     add("large_capture/taut_net", large_closing.batches, threads, large_taut_net, large_closing);
     add("large_capture/closing/long", large_closing.batches, threads, large_closing_phase, large_closing);
     // where threads do not pay, a whole case of a million steps takes minutes

@@ -42,19 +42,22 @@ void chain(benchmark::State& state) { solver(state, false); }
 void chain_with_ledger(benchmark::State& state) { solver(state, true); }
 
 // Mesh sides of several elements: short runs of elements in place of long ones.
-void peers_net(benchmark::State& state) {
-  const Scene scene = peers_net_scene();
+void peers_net(benchmark::State& state, bool with_threads) {
+  const Scene scene = peers_net_scene(with_threads);
   Simulation simulation(scene, step_by_step(prepare(scene)), 1);
   simulation.advance_to(batch);
   for (auto _ : state) simulation.advance_to(simulation.step() + batch);
   const double steps = static_cast<double>(state.iterations() * batch);
-  count_updates(state, steps * simulation.model().elements);
+  const Model& model = simulation.model();
+  count_updates(state, steps * model.elements);
+  count_scene(state, model.nodes, model.elements, 1);
   count_simulated(state, steps * simulation.stepper().plan().dt);
 }
 
 BENCHMARK(bare)->Name("element/bare")->Arg(200)->Arg(2000);
 BENCHMARK(chain)->Name("element/chain")->Arg(200)->Arg(2000);
-BENCHMARK(peers_net)->Name("element/net_of_781_nodes");
+BENCHMARK_CAPTURE(peers_net, alone, false)->Name("element/net_of_781_nodes");
+BENCHMARK_CAPTURE(peers_net, with_threads, true)->Name("element/net_of_1737_nodes");
 BENCHMARK(chain_with_ledger)->Name("element/chain_with_ledger")->Arg(200)->Arg(2000);
 
 }  // namespace

@@ -74,6 +74,51 @@ void node_update(benchmark::State& state, Index terms) {
   count(state, (terms == 1 ? 16 : 19) * sizeof(double));
 }
 
+// Elements and nodes in one pass, where the instruction set has it.
+void chain_update(benchmark::State& state, bool ledger) {
+  const auto kernel = kernels().update_chain[1][ledger][0][kernel::Moving::blind];
+  Chain chain(state.range(0));
+  const Index zeros = chain.count + 3 * lanes;
+  const kernel::Span span{0, chain.count / lanes, 1, 0, lanes, ledger ? 0 : -1, 0};
+  const kernel::Stretch stretch{0, chain.count, 1, {lanes, zeros, zeros}, {lanes - 1, zeros, zeros}};
+  const kernel::AxialArguments elements = chain.axial();
+  const kernel::NodeArguments nodes = chain.node();
+  for (auto _ : state) {
+    benchmark::DoNotOptimize(kernel(elements, nodes, span, stretch));
+    benchmark::ClobberMemory();
+  }
+  count(state, (13 + 2 * ledger) * sizeof(double));
+}
+
+// Single elements, which have no neighbours in memory.
+void links(benchmark::State& state) {
+  Chain chain(state.range(0));
+  std::vector<kernel::Link> links;
+  for (Index e = 0; e < chain.count; ++e)
+    links.push_back({e, e + 1, lanes + e, -1, 6.28e5, 0.655, 0.005, 1.3e-13});
+  const kernel::AxialArguments arguments = chain.axial();
+  const auto kernel = kernels().axial_links[1][kernel::Book::nothing];
+  for (auto _ : state) {
+    kernel(arguments, links.data(), 0, chain.count);
+    benchmark::ClobberMemory();
+  }
+  count(state, 9 * sizeof(double));
+}
+
+// Additions alone, for as many steps as a look allows on the way: an item is a node and step.
+void free_flight(benchmark::State& state) {
+  constexpr Index steps = 64;
+  Chain chain(state.range(0));
+  const kernel::NodeArguments arguments = chain.node();
+  const auto kernel = kernels().fly_freely[0];
+  for (auto _ : state) {
+    kernel(arguments, chain.count, steps);
+    benchmark::ClobberMemory();
+  }
+  const double items = static_cast<double>(state.iterations() * state.range(0) * steps);
+  state.counters["items_per_second"] = benchmark::Counter(items, benchmark::Counter::kIsRate);
+}
+
 void energies(benchmark::State& state) {
   Chain chain(state.range(0));
   const kernel::EnergyArguments arguments{chain.fields[0].data(),
@@ -103,6 +148,12 @@ void add(const std::string& name, Kernel kernel, Argument argument) {
   add("axial_forces_with_ledger", axial_forces, kernel::Book::power);
   add("node_update_of_chain", node_update, 1);
   add("node_update_of_net", node_update, 2);
+  if (kernels().update_chain[1][0][0][kernel::Moving::blind] != nullptr) {
+    add("chain_update", chain_update, false);
+    add("chain_update_with_ledger", chain_update, true);
+  }
+  benchmark::RegisterBenchmark("kernel/links", links)->Arg(200)->Arg(2000);
+  benchmark::RegisterBenchmark("kernel/free_flight", free_flight)->Arg(200)->Arg(2000);
   benchmark::RegisterBenchmark("kernel/energies", energies)->Arg(200)->Arg(2000);
   return true;
 }();

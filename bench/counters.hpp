@@ -3,6 +3,8 @@
 #include <benchmark/benchmark.h>
 
 #include <algorithm>
+#include <cstdint>
+#include <cstdio>
 #include <string>
 
 #include "machine_speed.hpp"
@@ -38,6 +40,13 @@ inline void count_steps(benchmark::State& state, const Model& model, double step
   state.counters["steps_per_second"] = benchmark::Counter(steps, benchmark::Counter::kIsRate);
   state.counters["flown_share"] = flown / steps;
   if (flown < 0.01 * steps) count_updates(state, steps * model.elements);
+}
+
+/// What the state has come to: the same for any number of threads. The page compares it.
+inline void tell_bits(benchmark::State& state, std::uint64_t state_hash) {
+  char text[24];
+  std::snprintf(text, sizeof text, "0x%016llx", static_cast<unsigned long long>(state_hash));
+  state.SetLabel(text);
 }
 
 /// Stages of the step's own clock as shares of the `wall` seconds they were measured in. That clock samples,

@@ -40,10 +40,18 @@ inline std::string net_text(std::int64_t knots, const Features& has = {}) {
          ", " + side + "]\nmesh_m = 0.1\nstowed_factor = 1.001\nvelocity_m_s = [0, 0, 1]\n";
 }
 
-/// The net that bench/README.md compares with other programs': 781 nodes, 880 elements, taut as well.
-inline Scene peers_net_scene() {
+/// The nets that bench/README.md compares with other programs', taut as well: 781 nodes and 880 elements; and
+/// with four threads of 239 nodes beside it, as closing threads lie, 1,737 nodes and 1,832 elements.
+inline Scene peers_net_scene(bool with_threads) {
   std::string text = net_text(11);
-  return parse_case(text.insert(text.find("mesh_m"), "elements_per_side = 4\n"), "net.toml");
+  text.insert(text.find("mesh_m"), "elements_per_side = 4\n");
+  for (int i = 0; i < (with_threads ? 4 : 0); ++i) {
+    const std::string y = std::to_string(1 + 0.1 * i);
+    text += "[thread.t" + std::to_string(i) +
+            "]\nmaterial = \"m\"\ndiameter_m = 0.002\nelements = 238\npoints_m = [[0, " + y +
+            ", 0], [1.2012, " + y + ", 0]]\nlength_m = 1.2\n";
+  }
+  return parse_case(text, "net.toml");
 }
 
 inline Scene net_scene(std::int64_t knots, const Features& has = {}) {

@@ -8,8 +8,9 @@ import unittest
 from pathlib import Path
 
 import sample  # finds bench's modules
+import dashboard
 import names
-from stored_run import Result, read_run
+from stored_run import Result, Run, read_run
 
 PROGRAM, COUNT = os.environ.get("CINCH_BENCH"), os.environ.get("CINCH_COUNT")
 
@@ -34,7 +35,8 @@ class Suites(unittest.TestCase):
     def test_every_suite_of_the_page_is_there(self) -> None:
         listed = self.listed()
         self.assertEqual({name.suite for name in listed},
-                         {"machine", "element", "kernel", "case", "growth", "absent", "startup", "output"})
+                         {"machine", "element", "kernel", "reduction", "broadphase", "case", "growth", "absent", "startup",
+                          "output"})
         self.assertEqual(len(listed), len(set(listed)), "a name stands for two benchmarks")
         for scene in {name.scene for name in listed if name.suite in ("case", "growth")}:
             self.assertIn(1, {name.threads for name in listed if name.scene == scene}, scene)
@@ -50,7 +52,8 @@ class Suites(unittest.TestCase):
 
     def test_counters(self) -> None:
         found = self.measured("^(element/chain/200$|absent/all/|growth/1024/threads:1/|kernel/ring_contact/16|"
-                              "kernel/sliding_joint/16|output/frame)")
+                              "kernel/sliding_joint/16|output/frame|broadphase/620$|reduction/solver/1024/threads:1/|"
+                              "case/ring_pull/sliding/)")
         expected = {
             "element/chain/200": {"element_updates_per_second", "fraction_of_yardstick"},
             "absent/all/with": {"element_updates_per_second"},
@@ -60,12 +63,23 @@ class Suites(unittest.TestCase):
             "kernel/ring_contact/16": {"items_per_second"},
             "kernel/sliding_joint/16": {"items_per_second"},
             "output/frame": {"bytes_per_second"},
+            "broadphase/620": {"pairs_tested", "pairs_kept", "elements", "items_per_second"},
+            "reduction/solver/1024/threads:1": {"element_updates_per_second", "nodes", "omp_threads"},
+            "case/ring_pull/sliding/threads:1": {"steps_per_second", "share_contacts", "handover_ns"},
         }
         self.assertEqual({name: result.error for name, result in found.items()}, dict.fromkeys(expected, ""))
         for name, counters in expected.items():
             self.assertLessEqual(counters, set(found[name].counters), name)
+        self.assertRegex(found["case/ring_pull/sliding/threads:1"].labels[0], "^0x[0-9a-f]{16}$")
         self.assertGreater(found["kernel/ring_contact/16"].counters["loads"], 0)  # the rings do touch
         self.assertEqual(found["kernel/sliding_joint/16"].counters["loads"], 16)  # and all bend the thread
+
+    def test_the_page_takes_what_is_measured(self) -> None:
+        found = self.measured("^(element/chain/200$|growth/1024/threads:1/|broadphase/620$|case/ring_pull/sliding/)")
+        run = Run(Path("run.json"), {"date": "2026-01-01T00:00:00Z"}, found)
+        page = dashboard.render(run, [], "")
+        for words in ("chain, 200 elements", "<td>620 elements", "ring_pull, sliding"):
+            self.assertIn(words, page)
 
     def test_stripped_programs_reach_the_solvers_bits(self) -> None:
         for feature in output(COUNT, "--features"):
