@@ -394,6 +394,19 @@ TEST(CaseReader, OverridesChangeAndAddKeys) {
   EXPECT_NE(scene.resolved_toml.find("time_s = 1.2"), std::string::npos);
 }
 
+TEST(CaseReader, AStarOverridesAllPartsOfAKind) {
+  const Scene scene = read_case(
+      source_dir / "cases/capture.toml",
+      {{"thread.*.elements", "12"}, {"thread.c_top.elements", "13"}, {"mechanism.*.launch_speed_m_s", "2"}});
+  EXPECT_EQ(scene.threads[0].elements, 13) << "what comes later goes first";
+  for (std::size_t i = 1; i < 4; ++i) EXPECT_EQ(scene.threads[i].elements, 12);
+  for (const Mechanism& each : scene.mechanisms) EXPECT_NEAR(each.launch_velocity.norm(), 2, 1e-12);
+  expect_error(minimal, {"--set ring.*.mass_kg=4: error: the case has no [ring.NAME]"},
+               {{"ring.*.mass_kg", "4"}});
+  expect_error(minimal, {"--set thread.*.elemnts=4: error: unknown key 'thread.main.elemnts'"},
+               {{"thread.*.elemnts", "4"}});
+}
+
 TEST(CaseReader, OverrideOfTheStepOfACase) {
   const Scene scene = read_case(source_dir / "cases/ring_pull.toml",
                                 {{"time.step_s", "2e-6"}, {"thread.main.elements", "50"}});

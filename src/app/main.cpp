@@ -33,7 +33,9 @@ struct Options {
 
 CLI::Option* add_case(CLI::App& command, Options& options) {
   CLI::Option* const file = command.add_option("CASE", options.run.scene.file, "case file (TOML)");
-  command.add_option("--set", options.sets, "override a key of the case: key.path=value")
+  command
+      .add_option("--set", options.sets,
+                  "override a key of the case: key.path=value; thread.*.KEY=value for all threads")
       ->allow_extra_args(false);
   command
       .add_option("--threads", options.run.scene.threads, "threads (default: as many as pay for the scene)")

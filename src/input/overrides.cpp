@@ -59,12 +59,8 @@ TomlMember& member_of(TomlValue& table, const std::string& key, Place place) {
   return table.members.back();
 }
 
-void apply(TomlValue& document, const Override& set, Place place, Diagnostics& diagnostics) {
-  const std::vector<std::string> path = split_path(set.key);
-  if (path.empty()) {
-    diagnostics.error(place, "'" + set.key + "' is no key path", "example: --set time.end_s=0.5");
-    return;
-  }
+void put(TomlValue& document, const std::vector<std::string>& path, const std::string& value, Place place,
+         Diagnostics& diagnostics) {
   TomlValue* table = &document;
   for (std::size_t depth = 0; depth < path.size(); ++depth) {
     if (table->type != TomlValue::Type::table) {
@@ -75,8 +71,34 @@ void apply(TomlValue& document, const Override& set, Place place, Diagnostics& d
     const bool schema = depth == 0 && path[0] == "schema";
     if (!table->find(path[depth]) && !schema && !may_create(path, depth, place, *table, diagnostics)) return;
     TomlMember& member = member_of(*table, path[depth], place);
-    if (last) member.value = parse_toml_value(set.value, place);
+    if (last) member.value = parse_toml_value(value, place);
     table = &member.value;
+  }
+}
+
+// Names of all parts that thread.* means, in the file's order.
+std::vector<std::string> names_of_all(const TomlValue& document, const std::string& section) {
+  std::vector<std::string> names;
+  for (const TomlMember& member : document.members)
+    if (member.key == section)
+      for (const TomlMember& part : member.value.members) names.push_back(part.key);
+  return names;
+}
+
+void apply(TomlValue& document, const Override& set, Place place, Diagnostics& diagnostics) {
+  std::vector<std::string> path = split_path(set.key);
+  if (path.empty()) {
+    diagnostics.error(place, "'" + set.key + "' is no key path", "example: --set time.end_s=0.5");
+    return;
+  }
+  const SectionInfo* section = section_of(path[0]);
+  if (path.size() < 3 || path[1] != "*" || !section || !section->named)
+    return put(document, path, set.value, place, diagnostics);
+  const std::vector<std::string> names = names_of_all(document, path[0]);
+  if (names.empty()) diagnostics.error(place, "the case has no [" + path[0] + ".NAME]");
+  for (const std::string& name : names) {
+    path[1] = name;
+    put(document, path, set.value, place, diagnostics);
   }
 }
 
