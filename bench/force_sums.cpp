@@ -19,11 +19,7 @@ constexpr int stretch_count = 16;  // whatever the number of threads, for the bi
 #define CINCH_CLONES
 #endif
 
-/// What loops over elements read: addresses that no store changes.
-struct Net {
-  const double *x, *y, *z, *u, *v, *w;
-  const Index *a, *b;
-};
+using Net = SummedNet::Net;
 
 struct Pull {
   double x, y, z;
@@ -152,10 +148,13 @@ void SummedNet::move(Index begin, Index end) {
   for (int d = 0; d < 3; ++d) move_along(begin, end, place_[d].data(), speed_[d].data(), force_[d].data());
 }
 
+SummedNet::Net SummedNet::net() const {
+  return {place_[0].data(), place_[1].data(), place_[2].data(), speed_[0].data(),
+          speed_[1].data(), speed_[2].data(), end_a_.data(),    end_b_.data()};
+}
+
 void SummedNet::gather(int thread) {
-  const Net net{place_[0].data(), place_[1].data(), place_[2].data(), speed_[0].data(),
-                speed_[1].data(), speed_[2].data(), end_a_.data(),    end_b_.data()};
-  write_pulls(net, part_of(elements(), thread, threads_), part_of(elements(), thread + 1, threads_),
+  write_pulls(net(), part_of(elements(), thread, threads_), part_of(elements(), thread + 1, threads_),
               pull_[0].data(), pull_[1].data(), pull_[2].data());
 #pragma omp barrier
   const Index begin = part_of(nodes(), thread, threads_), end = part_of(nodes(), thread + 1, threads_);
@@ -169,11 +168,9 @@ void SummedNet::gather(int thread) {
 }
 
 void SummedNet::scatter(int thread) {
-  const Net net{place_[0].data(), place_[1].data(), place_[2].data(), speed_[0].data(),
-                speed_[1].data(), speed_[2].data(), end_a_.data(),    end_b_.data()};
   for (std::size_t colour = 0; colour + 1 < colour_begin_.size(); ++colour) {
     const Index first = colour_begin_[colour], count = colour_begin_[colour + 1] - first;
-    scatter_colour(net, first + part_of(count, thread, threads_),
+    scatter_colour(net(), first + part_of(count, thread, threads_),
                    first + part_of(count, thread + 1, threads_), force_[0].data(), force_[1].data(),
                    force_[2].data());
 #pragma omp barrier
@@ -182,13 +179,11 @@ void SummedNet::scatter(int thread) {
 }
 
 void SummedNet::sum_privately(int thread) {
-  const Net net{place_[0].data(), place_[1].data(), place_[2].data(), speed_[0].data(),
-                speed_[1].data(), speed_[2].data(), end_a_.data(),    end_b_.data()};
   for (Index s = part_of(stretch_count, thread, threads_); s < part_of(stretch_count, thread + 1, threads_);
        ++s) {
     Stretch& own = stretches_[at(s)];
     for (auto& axis : own.force) std::fill(axis.begin(), axis.end(), 0.0);
-    add_pulls(net, own.begin, own.end, own.first_node, own.force[0].data(), own.force[1].data(),
+    add_pulls(net(), own.begin, own.end, own.first_node, own.force[0].data(), own.force[1].data(),
               own.force[2].data());
   }
 #pragma omp barrier

@@ -20,6 +20,12 @@ enum class SumWay {
 /// A square net as scenes.hpp has it, one element a mesh side, taut by 0.1 %.
 class SummedNet {
  public:
+  /// What loops over elements read: addresses that no store changes.
+  struct Net {
+    const double *x, *y, *z, *u, *v, *w;
+    const Index *a, *b;
+  };
+
   SummedNet(std::int64_t knots, SumWay way, int threads);
   void advance(std::int64_t steps);
   Index nodes() const { return static_cast<Index>(place_[0].size()); }
@@ -37,6 +43,7 @@ class SummedNet {
   void sort_by_colour(const std::vector<Index>& colour);
   void list_elements_of_nodes();
   void cut_stretches();
+  Net net() const;
   void step(int thread);
   void gather(int thread);
   void scatter(int thread);
