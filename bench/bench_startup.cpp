@@ -34,7 +34,7 @@ void startup_of_net(benchmark::State& state, std::int64_t knots) { startup(state
         ->UseRealTime()
         ->Unit(benchmark::kMillisecond);
   };
-  for (const char* name : {"ring_pull", "capture", "large_capture"}) add(name, startup_of_case, name);
+  for (const char* name : {"ring_pull", "edge_closure", "capture", "large_capture"}) add(name, startup_of_case, name);
   add("net_1000000/long", startup_of_net, std::int64_t{1000})->Iterations(1);
   return true;
 }();
