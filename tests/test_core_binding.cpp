@@ -27,12 +27,12 @@ std::set<int> allowed_cores() {
 TEST(CoreBinding, GivesEachThreadACoreAndThemBack) {
   const std::set<int> all = allowed_cores();
   const int threads = static_cast<int>(all.size());
-  if (!binds_threads(threads)) GTEST_SKIP() << "one core, or OMP_PROC_BIND is set";
+  if (!can_bind(threads)) GTEST_SKIP() << "one core, or OMP_PROC_BIND is set";
   std::vector<std::set<int>> cores(all.size());
 #pragma omp parallel num_threads(threads)
   {
     const int thread = omp_get_thread_num();
-    const CoreBinding bound(thread, threads);
+    const CoreBinding bound(true, thread, threads);
     cores[static_cast<std::size_t>(thread)] = allowed_cores();
   }
   std::set<int> used;
@@ -47,9 +47,11 @@ TEST(CoreBinding, GivesEachThreadACoreAndThemBack) {
 TEST(CoreBinding, LeavesFewerThreadsToTheScheduler) {
   const std::set<int> all = allowed_cores();
   const int threads = static_cast<int>(all.size());
-  EXPECT_FALSE(binds_threads(threads + 1));
-  EXPECT_FALSE(binds_threads(threads - 1));
-  const CoreBinding bound(0, threads + 1);
+  EXPECT_FALSE(can_bind(threads + 1));
+  EXPECT_FALSE(can_bind(threads - 1));
+  const CoreBinding many(true, 0, threads + 1);
+  EXPECT_EQ(allowed_cores(), all);
+  const CoreBinding unwanted(false, 0, threads);
   EXPECT_EQ(allowed_cores(), all);
 }
 

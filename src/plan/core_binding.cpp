@@ -36,13 +36,13 @@ thread_local cpu_set_t callers;  ///< of the first thread, as it was before
 
 }  // namespace
 
-bool binds_threads(int threads) {
+bool can_bind(int threads) {
   return threads > 1 && static_cast<std::size_t>(threads) == cores().size() &&
          omp_get_proc_bind() == omp_proc_bind_false && std::getenv("OMP_PROC_BIND") == nullptr;
 }
 
-CoreBinding::CoreBinding(int thread, int threads) {
-  if (!binds_threads(threads)) return;
+CoreBinding::CoreBinding(bool wanted, int thread, int threads) {
+  if (!wanted || !can_bind(threads)) return;
   const int core = cores()[static_cast<std::size_t>(thread)];
   restore_ = thread == 0 && sched_getaffinity(0, sizeof callers, &callers) == 0;
   if (bound_to == core || (thread == 0 && !restore_)) return;
@@ -58,8 +58,8 @@ CoreBinding::~CoreBinding() {
   bound_to = -1;
 }
 #else
-bool binds_threads(int) { return false; }
-CoreBinding::CoreBinding(int, int) {}
+bool can_bind(int) { return false; }
+CoreBinding::CoreBinding(bool, int, int) {}
 CoreBinding::~CoreBinding() = default;
 #endif
 

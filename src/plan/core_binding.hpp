@@ -6,11 +6,14 @@
 
 namespace cinch {
 
-/// Binds the calling thread of a parallel region, number `thread` of `threads`, for as long as it lives.
-/// Threads other than the first stay bound.
+/// Whether so many threads can be bound.
+bool can_bind(int threads);
+
+/// Binds the calling thread of a parallel region, number `thread` of `threads`, for as long as it lives, if
+/// `wanted` and possible. Threads other than the first stay bound.
 class CoreBinding {
  public:
-  CoreBinding(int thread, int threads);
+  CoreBinding(bool wanted, int thread, int threads);
   ~CoreBinding();
   CoreBinding(const CoreBinding&) = delete;
   CoreBinding& operator=(const CoreBinding&) = delete;
@@ -18,8 +21,5 @@ class CoreBinding {
  private:
   bool restore_ = false;  ///< threads that the first one starts later would begin on its core
 };
-
-/// Whether a region of so many threads is bound.
-bool binds_threads(int threads);
 
 }  // namespace cinch

@@ -145,6 +145,8 @@ void Simulation::enter_phase(std::size_t number) {
   if (p.plan.contacts()) share = node_share(p.model, p.plan.dt, p.plan.joint_steps);
   stepper_ = std::make_unique<Stepper>(p.model, p.plan, std::move(share), threads_);
   choice_ = {threads_, ThreadChoice::worth_it(p.model.elements) ? most_threads_ : 1};
+  // a run that tries how many threads pay takes what others leave free
+  if (most_threads_ == 1) stepper_->bind_threads();
 }
 
 // Central differences begin with velocities half a step back: v(-1/2) = v(0) - dt/2 a(0).
@@ -258,6 +260,7 @@ void Simulation::use_threads(int threads) {
   threads_ = available_threads(threads);
   most_threads_ = 1;
   choice_ = {threads_, 1};
+  stepper_->bind_threads();
 }
 
 // Or to where something is wrong.

@@ -50,7 +50,7 @@ void Stepper::each_by_its_thread(Visit visit) const {
   if (threads_ == 1) return visit(0);  // a region of one thread takes a microsecond, too
 #pragma omp parallel for num_threads(threads_) schedule(static, 1)
   for (int p = 0; p < threads_; ++p) {
-    const CoreBinding bound(p, threads_);
+    const CoreBinding bound(bind_, p, threads_);
     visit(p);
   }
 }
@@ -252,7 +252,7 @@ Stepper::Progress Stepper::run_threads(State& state, std::int64_t steps, const P
   Progress reached = from;
 #pragma omp parallel num_threads(threads_)
   {
-    const CoreBinding bound(omp_get_thread_num(), threads_);
+    const CoreBinding bound(bind_, omp_get_thread_num(), threads_);
     // fewer threads than pieces would wait for ever; all see the same number and none enters the steps
     const bool enough = omp_get_num_threads() == threads_;
     const Progress mine = enough ? run_thread(state, steps, omp_get_thread_num(), from) : from;

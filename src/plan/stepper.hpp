@@ -33,6 +33,8 @@ class Stepper {
 
   /// Goes on with so many threads, to the same bits.
   void use_threads(int threads, State& state);
+  /// Threads keep to cores from now on, where that can be: see core_binding.hpp.
+  void bind_threads() { bind_ = true; }
 
   /// To be called when the state was set back to that of an earlier step.
   void start_over();
@@ -89,6 +91,7 @@ class Stepper {
   const Model* model_;
   StepPlan plan_;
   int threads_;
+  bool bind_ = false;
   std::vector<double> node_share_;
   ContactList contacts_;
   std::vector<std::unique_ptr<Piece>> pieces_;  ///< thread; of several threads made at the first advance
