@@ -47,11 +47,13 @@ def precision(problem: Problem, made: str) -> Figure:
         curves[run["series"]].append(_point(run))
     series = [Series(name, COLOURS[i % len(COLOURS)], points) for i, (name, points) in enumerate(curves.items())]
     papers = [_point(run) for run in runs if run["papers_choice"]]
+    others = _other_measures(problem)
     return Figure(
         f"Error against run time: {problem['title']}", f"{_caption(problem)} {made}", COMMAND,
         ["method and step", "elements", "step, s", "runs", "error, %", "a run from the mean, %", "run time, s/s",
-         "energy residual", "order as far as errors fall", "remark"],
-        [_row(problem, run) for run in problem["runs"]],
+         "energy residual", "order as far as errors fall", "order in the step",
+         *(f"{_words(problem, name)}, %" for name in others), "remark"],
+        [_row(problem, run, others) for run in problem["runs"]],
         lines([Series("the paper's own choices", GREY, papers), *series],  # the first is drawn on top
               {"title": "run time per simulated second, s", "log": True}, {"title": "error, %", "log": True}))
 
@@ -60,29 +62,50 @@ def _point(run: dict[str, Any]) -> tuple[float | None, float | None]:
     return rounded(run["seconds_per_simulated_second"]), rounded(100 * run["errors"]["error"])
 
 
-def _row(problem: Problem, run: dict[str, Any]) -> Row:
+def _other_measures(problem: Problem) -> list[str]:
+    """All but the first; older files have none."""
+    return [name for name in problem.get("measures", {}) if name != "error"]
+
+
+def _words(problem: Problem, measure: str) -> str:
+    chance = " (by chance)" if problem["measures"][measure]["chaotic"] else ""
+    return measure.replace("_", " ") + chance
+
+
+def _row(problem: Problem, run: dict[str, Any], others: list[str]) -> Row:
     if "failure" in run:
-        return [run["series"], run["elements"], *[None] * 7, run["failure"]]
+        return [run["series"], run["elements"], *[None] * (8 + len(others)), run["failure"]]
     apart = run["errors"].get("one_run_from_the_mean")  # where a problem is chaotic
-    return [run["series"], run["elements"], run["step_s"], run["runs"], 100 * run["errors"]["error"],
-            None if apart is None else 100 * apart,
+    return [run["series"], run["elements"], run["step_s"], run["runs"], 100 * run["errors"]["error"], _percent(apart),
             run["seconds_per_simulated_second"], run["energy_residual"], problem["orders"].get(run["series"]),
-            "the paper's choice" if run["papers_choice"] else ""]
+            problem.get("step_orders", {}).get(run.get("but_for_the_step")),
+            *(_percent(run["errors"].get(name)) for name in others), "the paper's choice" if run["papers_choice"] else ""]
+
+
+def _percent(share: float | None) -> float | None:
+    return None if share is None else 100 * share
 
 
 def _caption(problem: Problem) -> str:
     """What the error is, and the fastest setting for each wanted one."""
-    best = "; ".join(_best(problem, wanted["error"]) for wanted in problem["best"])
-    others = [wanted["error"] for wanted in problem.get("best_of_small_residual", [])  # older files have none
+    best = "; ".join(_best(problem, wanted) for wanted in problem["best"])
+    others = [wanted for wanted in problem.get("best_of_small_residual", [])  # older files have none
               if best_within(problem, wanted["error"]) != best_within(problem, wanted["error"], SMALL_RESIDUAL)]
-    accounted = "; ".join(_best(problem, error, SMALL_RESIDUAL) for error in others)
+    accounted = "; ".join(_best(problem, wanted, SMALL_RESIDUAL) for wanted in others)
     if accounted:
         best += f". Among those with an energy residual of {SMALL_RESIDUAL:g} at most: {accounted}"
     runs = max(run["runs"] for run in problem["runs"])  # more than one where a problem is chaotic
     means = f", of means over up to {runs} runs that begin a little apart" if runs > 1 else ""
     return (f"Lower left is better. Error: {problem['measure']}{means}; the reference's own is "
-            f"{number(100 * problem['reference_error'])} %. Fastest, with that and what chance may add counted in: "
-            f"{best}.")
+            f"{number(100 * problem['reference_error'])} %{_of_other_measures(problem)}. Fastest, with that and what "
+            f"chance may add counted in: {best}.")
+
+
+def _of_other_measures(problem: Problem) -> str:
+    """What the reference is off by, by other measures than the first."""
+    known = {name: problem["measures"][name]["reference_error"] for name in _other_measures(problem)}
+    words = [f"{_words(problem, name)} {number(100 * error)} %" for name, error in known.items() if error]
+    return f" ({', '.join(words)})" if words else ""
 
 
 def best_within(problem: Problem, error: float, residual: float = math.inf) -> dict[str, Any] | None:
@@ -94,7 +117,8 @@ def best_within(problem: Problem, error: float, residual: float = math.inf) -> d
     return min(runs, key=lambda run: run["seconds_per_simulated_second"], default=None)
 
 
-def _best(problem: Problem, error: float, residual: float = math.inf) -> str:
-    run = best_within(problem, error, residual)
-    words = "none" if run is None else f"{run['series']}, {run['elements']} elements"
-    return f"within {100 * error:g} %: {words}"
+def _best(problem: Problem, wanted: dict[str, Any], residual: float = math.inf) -> str:
+    run = best_within(problem, wanted["error"], residual)
+    why = f" ({wanted['why']})" if "why" in wanted else ""  # older files do not say
+    words = f"none{why}" if run is None else f"{run['series']}, {run['elements']} elements"
+    return f"within {100 * wanted['error']:g} %: {words}"

@@ -189,7 +189,8 @@ def of_study() -> dict[str, Any]:
     def run(method: str, elements: int, error: float, seconds: float, papers: bool = False) -> dict[str, Any]:
         return {"series": f"{method}, step 1e-06 s", "method": method, "elements": elements, "step_s": 1e-6,
                 "closing_step_s": 1e-6,
-                "papers_choice": papers, "runs": 1, "errors": {"error": error}, "energy_residual": 1e-4,
+                "papers_choice": papers, "runs": 1, "errors": {"error": error, "peak_force": 0.2},
+                "but_for_the_step": f"{method}, {elements} elements", "energy_residual": 1e-4,
                 "seconds_per_simulated_second": seconds}
     runs = [run("contact", n, 4 / n, n / 400, n > 50) for n in (50, 100, 200)]
     runs += [run("sliding", n, 0.05 / n, n / 2000) for n in (6, 12, 24)]
@@ -197,10 +198,13 @@ def of_study() -> dict[str, Any]:
     runs.append({"series": "sliding, step 1e-06 s", "method": "sliding", "elements": 2, "step_s": 0.0,
                  "closing_step_s": 0.0,
                  "papers_choice": False, "runs": 1, "failure": "error: at t = 1 s <something> went wrong"})
-    best = [{"error": 0.1, "run": 3}, {"error": 0.0001, "run": None}]
+    best = [{"error": 0.1, "run": 3}, {"error": 0.0001, "run": None, "why": "the reference decides nothing so small"}]
+    measures = {"error": {"reference_error": 0.0004, "chaotic": False},
+                "peak_force": {"reference_error": 0.05, "chaotic": True}}
     problem = {"name": "pull", "title": "A pull (Sec. 5.1)", "measure": "distance", "reference_error": 0.0004,
                "runs": runs, "best": best, "best_of_small_residual": [{"error": 0.1, "run": 4}, best[1]],
-               "orders": {"contact, step 1e-06 s": 1.0}}
+               "measures": measures, "orders": {"contact, step 1e-06 s": 1.0},
+               "step_orders": {"sliding, 6 elements": 2.0}}
     return {"version": "0.1.0", "commit": "dddddddddddd", "compiler": "GNU", "isa": "v4", "machine": "desk",
             "cpu": "Example CPU 2-Core", "problems": [problem]}
 

@@ -123,11 +123,26 @@ class Page(unittest.TestCase):
         self.assertEqual([series["label"] for series in chart["series"]],
                          ["the paper's own choices", "contact, step 1e-06 s", "sliding, step 1e-06 s"])
         self.assertEqual(chart["series"][0]["values"], [[0.25, 4.0], [0.5, 2.0]])
-        self.assertIn("within 10 %: sliding, step 1e-06 s, 6 elements; within 0.01 %: none. "
-                      "Among those with an energy residual of 0.0001 at most: within 10 %: sliding, step 1e-06 s, "
-                      "12 elements.", page)
-        self.assertIn("reference&#x27;s own is 0.0400 %. Fastest, with that and what chance may add counted in: ", page)
+        self.assertIn("within 10 %: sliding, step 1e-06 s, 6 elements; within 0.01 %: none (the "
+                      "reference decides nothing so small). Among those with an energy residual of 0.0001 at most: within "
+                      "10 %: sliding, step 1e-06 s, 12 elements.", page)
+        self.assertIn("reference&#x27;s own is 0.0400 % (peak force (by chance) 5.00 %). Fastest, with that and what chance may add counted in: ", page)
         self.assertIn("at t = 1 s &lt;something&gt; went wrong", page)
+
+    def test_the_study_s_other_measures_have_columns_and_older_files_have_none(self) -> None:
+        study = sample.of_study()
+        (problem,) = study["problems"]
+        (figure,) = precision.figures(study)
+        column = figure.headers.index("peak force (by chance), %")
+        self.assertEqual([row[column] for row in figure.rows], [20.0] * 6 + [None])
+        self.assertEqual(figure.rows[3][figure.headers.index("order in the step")], 2.0)
+        for key in ("measures", "step_orders"):
+            del problem[key]
+        for best in problem["best"]:
+            best.pop("why", None)
+        (older,) = precision.figures(study)
+        self.assertNotIn("peak force (by chance), %", older.headers)
+        self.assertIn("within 0.01 %: none.", older.caption)
 
     def test_chance_and_the_reference_s_own_error_count_against_a_setting(self) -> None:
         (problem,) = sample.of_study()["problems"]
