@@ -2,71 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
-#include <limits>
-#include <nlohmann/json.hpp>
-
-#include "base/error.hpp"
-#include "base/version.hpp"
+#include <cstdio>
 
 namespace cinch::study {
-namespace {
-
-using Json = nlohmann::ordered_json;
-
-Json run_json(const RunResult& run) {
-  Json json = {{"series", run.setting.series()},
-               {"method", run.setting.method},
-               {"elements", run.setting.elements},
-               {"step_s", run.step},
-               {"closing_step_s", run.closing_step},
-               {"papers_choice", run.setting.papers},
-               {"runs", run.setting.runs}};
-  if (!run.good()) {
-    json["failure"] = run.failure;
-    return json;
-  }
-  for (const auto& [name, error] : run.errors) json["errors"][name] = error;
-  json["energy_residual"] = run.residual;
-  json["seconds_per_simulated_second"] = run.seconds;
-  return json;
-}
-
-Json problem_json(const ProblemResult& result) {
-  Json json = {{"name", result.problem->name},
-               {"title", result.problem->title},
-               {"measure", result.problem->measure},
-               {"reference_error", result.reference_error},
-               {"runs", Json::array()},
-               {"best", Json::array()},
-               {"best_of_small_residual", Json::array()},
-               {"orders", Json::object()}};
-  for (const RunResult& run : result.runs) json["runs"].push_back(run_json(run));
-  const auto named = [&](double wanted, const RunResult* best) {
-    return Json{{"error", wanted}, {"run", best ? Json(best - result.runs.data()) : Json()}};
-  };
-  for (const double wanted : wanted_errors) {
-    json["best"].push_back(named(wanted, best_within(result, wanted)));
-    json["best_of_small_residual"].push_back(named(wanted, best_within(result, wanted, small_residual)));
-  }
-  for (const std::string& series : series_of(result))
-    if (const double order = observed_order(result, series); std::isfinite(order))
-      json["orders"][series] = order;
-  return json;
-}
-
-void write_text(const std::filesystem::path& file, const std::string& text) {
-  std::ofstream out(file);
-  if (!(out << text).flush()) throw FileError("error: " + file.string() + " cannot be written");
-}
-
-}  // namespace
-
-double RunResult::uncertainty() const {
-  for (const auto& [name, value] : errors)
-    if (name == "uncertainty") return value;
-  return 0;
-}
 
 double error_of_mean(double from_the_mean, std::size_t count) {
   return from_the_mean / std::sqrt(static_cast<double>(std::max<std::size_t>(count, 2) - 1));
@@ -75,11 +13,28 @@ double error_of_mean(double from_the_mean, std::size_t count) {
 const RunResult* best_within(const ProblemResult& result, double error, double residual) {
   const RunResult* best = nullptr;
   for (const RunResult& run : result.runs)
-    if (run.good() && run.residual <= residual &&
-        run.error() + run.uncertainty() + result.reference_error <= error &&
+    if (run.good() && run.residual <= residual && run.sure_error() + result.reference_error() <= error &&
         (best == nullptr || run.seconds < best->seconds))
       best = &run;
   return best;
+}
+
+std::string why_none(const ProblemResult& result, double error, double residual) {
+  const RunResult* nearest = nullptr;
+  for (const RunResult& run : result.runs)
+    if (run.good() && run.residual <= residual &&
+        (nearest == nullptr || run.sure_error() < nearest->sure_error()))
+      nearest = &run;
+  if (nearest == nullptr) return "no run";
+  char words[200];
+  if (result.reference_error() >= error)
+    std::snprintf(words, sizeof words, "the reference's own error of %.2g %% decides nothing so small",
+                  100 * result.reference_error());
+  else
+    std::snprintf(words, sizeof words,
+                  "the nearest is off by %.2g %%, by chance %.2g %% more, the reference by %.2g %%",
+                  100 * nearest->error(), 100 * nearest->uncertainty(), 100 * result.reference_error());
+  return words;
 }
 
 std::vector<std::string> series_of(const ProblemResult& result) {
@@ -119,28 +74,46 @@ double observed_order(const ProblemResult& result, const std::string& series) {
   return (n * xy - x * y) / (n * xx - x * x);
 }
 
-void write(const std::vector<ProblemResult>& results, const std::filesystem::path& folder) {
-  Json json = {{"version", version},
-               {"commit", commit},
-               {"compiler", compiler},
-               {"isa", kernels().isa},
-               {"problems", Json::array()}};
-  std::string csv =
-      "problem,series,method,elements,step_s,closing_step_s,papers_choice,error,energy_residual,"
-      "seconds_per_simulated_second,failure\n";
-  for (const ProblemResult& result : results) {
-    json["problems"].push_back(problem_json(result));
-    for (const RunResult& run : result.runs) {
-      char numbers[200];
-      std::snprintf(numbers, sizeof numbers, "%d,%.9g,%.9g,%d,%.9g,%.9g,%.9g", run.setting.elements, run.step,
-                    run.closing_step, run.setting.papers, run.good() ? run.error() : NAN, run.residual,
-                    run.seconds);
-      csv += result.problem->name + ",\"" + run.setting.series() + "\",\"" + run.setting.method + "\"," +
-             numbers + ",\"" + run.failure.substr(0, run.failure.find('"')) + "\"\n";
-    }
-  }
-  write_text(folder / "study.json", json.dump(1) + "\n");
-  write_text(folder / "study.csv", csv);
+namespace {
+
+// The good runs of the same method and elements, from the longest step on.
+std::map<std::string, std::vector<const RunResult*>> by_step(const ProblemResult& result) {
+  std::map<std::string, std::vector<const RunResult*>> groups;
+  for (const RunResult& run : result.runs)
+    if (run.good()) groups[run.setting.but_for_the_step()].push_back(&run);
+  for (auto& [name, runs] : groups)
+    std::stable_sort(runs.begin(), runs.end(),
+                     [](const RunResult* a, const RunResult* b) { return a->taken.step > b->taken.step; });
+  return groups;
+}
+
+constexpr double none = std::numeric_limits<double>::quiet_NaN();
+
+// Of three runs, each of whose steps is the same part of the one before.
+double step_order(const Problem& problem, const RunResult* const* runs) {
+  const double factor = runs[0]->taken.step / runs[1]->taken.step;
+  if (!(factor > 1) || std::abs(runs[1]->taken.step / runs[2]->taken.step / factor - 1) > 0.01) return none;
+  const double first = problem.errors(runs[0]->apart, runs[1]->apart).front().second;
+  const double second = problem.errors(runs[1]->apart, runs[2]->apart).front().second;
+  return first > second && second > 0 ? std::log(first / second) / std::log(factor) : none;
+}
+
+// Of the shortest steps, where the same comes of those before them: else chance makes the differences.
+double step_order(const Problem& problem, const std::vector<const RunResult*>& runs) {
+  if (runs.size() < 4) return none;
+  const RunResult* const* last = runs.data() + runs.size() - 3;
+  const double order = step_order(problem, last);
+  return std::abs(step_order(problem, last - 1) - order) < 0.5 ? order : none;
+}
+
+}  // namespace
+
+std::map<std::string, double> step_orders(const ProblemResult& result) {
+  std::map<std::string, double> orders;
+  if (!result.problem->exact) return orders;
+  for (const auto& [name, runs] : by_step(result))
+    if (const double order = step_order(*result.problem, runs); std::isfinite(order)) orders[name] = order;
+  return orders;
 }
 
 }  // namespace cinch::study

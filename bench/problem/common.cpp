@@ -8,18 +8,19 @@
 
 namespace cinch::study {
 
-const char* const papers_rules = "contact, paper's rules";
+static void take_rules(Contact& contact, const std::string& method) {
+  const bool all = method == papers_rules;
+  if (all || method == papers_couple) contact.couple = RingCouple::paper;
+  if (all || method == papers_distance) contact.distance = DistanceMethod::golden;
+  if (all || method == papers_nodes) contact.shared_node = SharedNode::paper;
+}
 
 Scene scene_of(const std::string& name, const Setting& setting, const std::function<void(Scene&)>& change) {
   Scene scene = read_case(std::string(CINCH_SOURCE_DIR) + "/cases/" + name + ".toml");
   if (change) change(scene);
   const bool sliding = setting.method == "sliding";
   for (Ring& ring : scene.rings) ring.joint = sliding ? RingJoint::sliding : RingJoint::contact;
-  if (setting.method == papers_rules) {
-    scene.contact.couple = RingCouple::paper;
-    scene.contact.distance = DistanceMethod::golden;
-    scene.contact.shared_node = SharedNode::paper;
-  }
+  take_rules(scene.contact, setting.method);
   for (Thread& thread : scene.threads) thread.elements = setting.elements;
   scene.probes.clear();
   scene.time.joint_steps = setting.joint_steps;
@@ -68,18 +69,45 @@ void append(std::vector<double>& to, const Vec3& place) {
   to.insert(to.end(), {place.x(), place.y(), place.z()});
 }
 
+double peak_ring_force(const Simulation& sim) {
+  double most = 0;
+  for (const kernel::RingTally& ring : sim.state().rings) most = std::max(most, ring.peak_force);
+  return most;
+}
+
+double last_apart(const Track& found, const Track& reference, std::size_t back) {
+  const auto &end = found.samples.back(), &right = reference.samples.back();
+  const std::size_t place = end.size() - 1 - back;
+  return std::abs(end[place] / right[place] - 1);
+}
+
+static std::string words_of_hold(const Setting& setting) {
+  if (setting.joint_steps == 1) return "";
+  return ", forces held" +
+         (setting.joint_steps > 1 ? " for " + std::to_string(setting.joint_steps) + " steps" : "");
+}
+
 std::string Setting::series() const {
   char words[80];
   if (step > 0) std::snprintf(words, sizeof words, ", step %g s", step);
   else if (closing_fraction > 0)
     std::snprintf(words, sizeof words, ", %g, then %g of the stable step", fraction, closing_fraction);
   else std::snprintf(words, sizeof words, ", %g of the stable step", fraction);
-  const std::string held = joint_steps > 1 ? " for " + std::to_string(joint_steps) + " steps" : "";
-  return method + words + (joint_steps != 1 ? ", forces held" + held : "");
+  return method + words + words_of_hold(*this);
+}
+
+std::string Setting::but_for_the_step() const {
+  return method + ", " + std::to_string(elements) + " elements" + words_of_hold(*this);
 }
 
 std::vector<Problem> problems(Extent extent) {
-  return {weight_on_a_thread(extent), ring_pull(extent), edge_closure(extent), net_closing(extent),
+  return {weight_on_a_thread(extent),
+          atwood(extent),
+          ring_pull(extent),
+          damped_ring_pull(extent, 0.02),
+          damped_ring_pull(extent, 0.5),
+          edge_closure(extent),
+          net_closing(extent),
           capture(extent)};
 }
 

@@ -4,7 +4,11 @@
 
 namespace cinch::study {
 
-extern const char* const papers_rules;  ///< the method of that name
+/// Contact with all of the paper's rules, and with one of them alone.
+inline constexpr const char* papers_rules = "contact, paper's rules";
+inline constexpr const char* papers_distance = "contact, paper's golden section";
+inline constexpr const char* papers_couple = "contact, paper's couple";
+inline constexpr const char* papers_nodes = "contact, paper's shared nodes";
 
 /// A case of the project's with a setting's threads, rings and step, and without probes; `change` comes
 /// first.
@@ -29,5 +33,11 @@ double distance(const std::vector<double>& a, const std::vector<double>& b, std:
 double greatest(const Track& a, const Track& b, std::size_t first, std::size_t last);
 
 void append(std::vector<double>& to, const Vec3& place);
+
+/// Greatest force that any ring has felt by now, N.
+double peak_ring_force(const Simulation& sim);
+/// How far two numbers that stand last in the tracks' samples, or `back` before that, are apart, of the
+/// second.
+double last_apart(const Track& found, const Track& reference, std::size_t back = 0);
 
 }  // namespace cinch::study

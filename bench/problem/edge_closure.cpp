@@ -24,6 +24,7 @@ Problem edge_closure(Extent extent) {
       append(places, now.position(now.assembly().node_of(std::string("thread.closing.") + end)));
     for (int k = 0; k <= 10; ++k)
       append(places, now.position(now.assembly().node_of("net.main.knot." + std::to_string(k) + ".0")));
+    places.push_back(peak_ring_force(sim));
     return places;
   };
   p.errors = [](const Track& found, const Track& reference) {  // the net is 1 m wide
@@ -35,9 +36,13 @@ Problem edge_closure(Extent extent) {
     }
     const double edge = std::sqrt(sum / 11 / static_cast<double>(found.samples.size()));
     const double masses = std::max(greatest(found, reference, 0, 3), greatest(found, reference, 3, 6));
-    return Errors{
-        {"error", std::max(edge, masses)}, {"edge_shape", edge}, {"one_knot", most}, {"mass_path", masses}};
+    return Errors{{"error", std::max(edge, masses)},
+                  {"edge_shape", edge},
+                  {"one_knot", most},
+                  {"mass_path", masses},
+                  {"ring_force", last_apart(found, reference)}};
   };
+  p.chaotic_measures = {"one_knot", "ring_force"};
   if (extent == Extent::trial) {  // its begin
     p.end = 0.02, p.samples = 2;
     p.reference.push_back({"sliding", 8, 0, 0.8, false, 0, 2});

@@ -1,36 +1,29 @@
-#include <algorithm>
-
-#include "common.hpp"
-#include "scene/mouth.hpp"
+#include "closing_masses.hpp"
 
 namespace cinch::study {
+
+static constexpr double closing_time = 0.001;  // s
 
 Problem net_closing(Extent extent) {
   Problem p;
   p.name = "net_closing";
   p.title = "A deployed net closes (Sec. 5.3 without deployment and target)";
-  p.measure =
-      "greatest difference of the mouth's area, of the open one, or of a split mass's place, of the net's "
-      "side";
+  p.measure = measure_of_closing;
   p.end = 0.4;
   p.samples = 40;
   p.scene = [](const Setting& setting) {
     return scene_of("capture", setting, [](Scene& scene) {
       scene.targets.clear();
-      scene.closing.time = 0.001;
+      scene.closing.time = closing_time;
       for (Net& net : scene.nets) net.stowed_factor = 1;
       for (Mechanism& mechanism : scene.mechanisms) mechanism.initial_stretch = 1;
     });
   };
-  p.sample = [](Simulation& sim) {
-    const Look& now = sim.look();
-    const Vec3 mass = now.position(now.assembly().node_of("mechanism.m1.a"));
-    return std::vector<double>{mouth_area(now.ring_centers()), mass.x(), mass.y(), mass.z()};
+  p.sample = [](Simulation& sim) { return sample_of_closing(sim, sim.look()); };
+  p.errors = [](const Track& found, const Track& reference) {
+    return errors_of_closing(found, reference, closing_time);
   };
-  p.errors = [](const Track& found, const Track& reference) {  // the net is 1 m wide, its mouth 1 m^2
-    const double area = greatest(found, reference, 0, 1), mass = greatest(found, reference, 1, 4);
-    return Errors{{"error", std::max(area, mass)}, {"mouth_area", area}, {"split_mass_path", mass}};
-  };
+  p.chaotic_measures = {"split_mass_velocity_greatest", "ring_force"};
   if (extent == Extent::trial) {  // its begin
     p.end = 0.02, p.samples = 2;
     p.reference.push_back({"sliding", 8, 0, 0.8, false, 0});

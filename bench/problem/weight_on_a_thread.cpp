@@ -108,7 +108,8 @@ Problem weight_on_a_thread(Extent extent) {
   };
   std::vector<int> elements{2, 4, 8, 16, 32, 64, 128};
   if (extent == Extent::trial) elements = {4, 8, 16};
-  for (const double fraction : {0.95, 0.8, 0.4}) add_series(p.settings, "threads", elements, fraction);
+  for (const double fraction : {0.95, 0.8, 0.4, 0.2, 0.1})
+    add_series(p.settings, "threads", elements, fraction);
   return p;
 }
 

@@ -2,6 +2,7 @@
 from __future__ import annotations
 
 import csv
+import json
 import math
 import os
 import subprocess
@@ -54,12 +55,72 @@ class Study(unittest.TestCase):
     def test_a_thread_comes_to_its_exact_solution_at_second_order(self) -> None:
         weight = self.problems["weight_on_a_thread"]
         self.assertEqual(weight["reference_error"], 0)
-        self.assertEqual(len(weight["orders"]), 3)
-        for order in weight["orders"].values():
+        self.assertEqual(len(weight["orders"]), 5)
+        self.assertIn("threads, 16 elements", weight["step_orders"])
+        for order in (*weight["orders"].values(), *weight["step_orders"].values()):
             self.assertTrue(1.7 < order < 2.3, order)
         for run in self.runs("weight_on_a_thread"):
             if run["elements"] == 16:
                 self.assertLess(run["errors"]["error"], 0.005)
+
+    def test_a_thread_over_a_ring_comes_to_its_exact_solution(self) -> None:
+        self.assertEqual(self.problems["atwood"]["reference_error"], 0)
+        for run in self.runs("atwood"):
+            if run["elements"] == 16:
+                self.assertLess(run["errors"]["error"], 0.004)
+
+    def test_another_damping_has_a_reference_of_its_own(self) -> None:
+        for ratio in ("0.02", "0.5"):
+            for run in self.runs(f"ring_pull_damped_{ratio}"):
+                self.assertLess(run["errors"]["error"], 0.01)
+
+    def test_each_measure_has_its_reference_s_error_and_is_told_where_it_hangs_on_chance(self) -> None:
+        chaotic = {"ring_pull": {"ring_force"}, "edge_closure": {"one_knot", "ring_force"},
+                   "net_closing": {"split_mass_velocity_greatest", "ring_force"},
+                   "capture": {"split_mass_velocity", "split_mass_velocity_greatest", "ring_force"}}
+        for name, problem in self.problems.items():
+            measures = problem["measures"]
+            for run in self.runs(name):
+                self.assertEqual(list(measures), [key for key in run["errors"]
+                                                  if key not in ("one_run_from_the_mean", "uncertainty")])
+                if run["runs"] > 1:
+                    self.assertEqual(list(run["uncertainties"]), list(measures))
+                    self.assertEqual(run["uncertainties"]["error"], run["errors"]["uncertainty"])
+            self.assertEqual({key for key in measures if measures[key]["chaotic"]},
+                             chaotic.get(name, chaotic["ring_pull"] if "ring_pull" in name else set()))
+            self.assertEqual(measures["error"]["reference_error"], problem["reference_error"])
+        self.assertGreater(self.problems["ring_pull"]["measures"]["ring_force"]["reference_error"], 0)
+
+    def test_steps_are_told_by_numbers(self) -> None:
+        (run,) = self.runs("net_closing")
+        self.assertAlmostEqual(run["fraction"], 0.8)
+        self.assertAlmostEqual(run["closing_fraction"], 0.8)
+        self.assertGreater(run["joint_steps"], 1, "automatic")
+
+    def test_a_problem_alone_leaves_the_others_as_they_were_and_unknown_names_are_refused(self) -> None:
+        with tempfile.TemporaryDirectory() as folder:
+            def study(*only: str) -> dict[str, dict[str, Any]]:
+                names = [word for name in only for word in ("--only", name)]
+                subprocess.run([str(STUDY), folder, "--trial", *names], capture_output=True, check=True)
+                found = json.loads(file.read_text(encoding="utf-8"))
+                return {problem["name"]: problem for problem in found["problems"]}
+            file = Path(folder) / "study.json"
+            self.assertEqual(list(study("weight_on_a_thread")), ["weight_on_a_thread"])
+            before = study("ring_pull", "atwood")
+            self.assertEqual(list(before), ["weight_on_a_thread", "atwood", "ring_pull"])
+            marked = json.loads(file.read_text(encoding="utf-8"))
+            marked["problems"][0]["title"] = "as before"
+            file.write_text(json.dumps(marked), encoding="utf-8")
+            self.assertEqual([problem["title"] == "as before" for problem in study("atwood").values()],
+                             [True, False, False])
+            with (Path(folder) / "study.csv").open(encoding="utf-8") as table:
+                self.assertEqual({row["problem"] for row in csv.DictReader(table)}, set(before))
+            for other in ("commit", "extent"):
+                file.write_text(json.dumps({**marked, other: "another"}), encoding="utf-8")
+                self.assertEqual(list(study("atwood")), ["atwood"], other)
+            done = subprocess.run([str(STUDY), folder, "--only", "pull"], capture_output=True, check=False, text=True)
+            self.assertEqual(done.returncode, 2)
+            self.assertIn("error: no problem 'pull'; there are: weight_on_a_thread, atwood, ring_pull", done.stderr)
 
     def test_orders_are_those_of_errors_that_fall(self) -> None:
         for problem in self.problems.values():
@@ -103,6 +164,19 @@ class Study(unittest.TestCase):
                          [(name, run["series"], run["elements"]) for name, run in runs])
         for row, (_, run) in zip(rows, runs):
             self.assertTrue(math.isclose(float(row["error"]), run["errors"]["error"], rel_tol=1e-6))
+            self.assertEqual(float(row["uncertainty"]) > 0, run["errors"].get("uncertainty", 0) > 0)
+            for name, value in run["errors"].items():
+                if f"errors.{name}" in row and value is not None:
+                    self.assertTrue(math.isclose(float(row[f"errors.{name}"]), value, rel_tol=1e-6, abs_tol=1e-15))
+            for key in ("fraction", "closing_fraction", "joint_steps", "runs", "energy_residual"):
+                self.assertTrue(math.isclose(float(row[key]), run[key], rel_tol=1e-6), key)
+        forces = {row["problem"] for row in rows if row["errors.ring_force"]}
+        self.assertEqual(forces, set(self.problems) - {"weight_on_a_thread", "atwood"})
+
+    def test_where_none_is_within_an_error_it_is_said_why(self) -> None:
+        for problem in self.problems.values():
+            for best in (*problem["best"], *problem["best_of_small_residual"]):
+                self.assertEqual(best["run"] is None, "why" in best)
 
     def test_the_page_draws_it(self) -> None:
         problems = list(self.problems.values())
@@ -112,6 +186,7 @@ class Study(unittest.TestCase):
             self.assertEqual(len(figure.rows), len(problem["runs"]))
             chaotic = problem["name"] in ("capture", "edge_closure")
             self.assertEqual(f"means over up to {max(run['runs'] for run in problem['runs'])} runs" in figure.caption, chaotic)
+            self.assertTrue(all(len(row) == len(figure.headers) for row in figure.rows), problem["name"])
             apart = figure.headers.index("a run from the mean, %")
             self.assertEqual(all(row[apart] is None for row in figure.rows), not chaotic)
             self.assertEqual({series["label"] for series in figure.chart["series"]},
