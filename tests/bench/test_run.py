@@ -35,6 +35,12 @@ cinch_install() { [ "$1" != valgrind ] || "$cinch_root/has_valgrind"; }
 cinch_build() { :; }
 """
 
+# Writes the study that lies beside it, and what it was asked for.
+STUDY = """#!/usr/bin/env bash
+cp "$(dirname "$0")/study.json" "$1/study.json"
+echo "asked for: ${@:2}"
+"""
+
 COUNT = """#!/usr/bin/env bash
 echo '{"rings": {"counted": 1010, "stripped": 1000}}' >"${@: -1}"
 exit "$(cat "$(dirname "$0")/counts")"
@@ -164,6 +170,32 @@ class FromEndToEnd(unittest.TestCase):
         self.valgrind("exit 0", counts=1)
         self.assertEqual(self.bench(sample.google_json(only="element/")).returncode, 1)
         self.assert_page("<h1>")
+
+    def study(self, *arguments: str) -> str:
+        """What bench/study says."""
+        beside = self.root / "build/release/bench"
+        self.program(beside / "cinch_study", STUDY)
+        (beside / "study.json").write_text(json.dumps(sample.of_study()), encoding="utf-8")
+        done = subprocess.run([self.root / "bench/study", *arguments], capture_output=True, text=True, check=True,
+                              env={**os.environ, "PYTHONDONTWRITEBYTECODE": "1"})
+        return done.stdout
+
+    def test_a_study_draws_the_page_of_the_stored_run_anew(self) -> None:
+        self.store = self.root / "build/bench"
+        self.bench(sample.google_json(commit="aaaaaaaaaaaa"))
+        self.assert_page("A pull (Sec. 5.1)", False)
+        said = self.study("--only", "pull", "--only", "other")
+        self.assertIn("asked for: --only pull --only other\n", said)
+        self.assertIn(f"dashboard: {self.store}/dashboard.html", said)
+        self.assert_page("A pull (Sec. 5.1)")
+        self.assert_page("aaaaaaaaaaaa")
+
+    def test_a_study_without_a_stored_run_or_elsewhere_says_what_draws_it(self) -> None:
+        words = f"bench/run draws {self.root}/build/bench/study.json on its page\n"
+        self.assertTrue(self.study().endswith(words))
+        self.store = self.root / "build/bench"
+        self.bench(sample.google_json(commit="aaaaaaaaaaaa"))
+        self.assertTrue(self.study(str(self.root / "elsewhere")).endswith(words))
 
     def test_runs_are_stored(self) -> None:
         self.bench(sample.google_json(only="element/"))
