@@ -1,20 +1,16 @@
 #include "study_measure.hpp"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <functional>
 #include <future>
 #include <thread>
 
 #include "base/error.hpp"
+#include "processor_time.hpp"
 
 namespace cinch::study {
 namespace {
-
-double seconds() {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
-}
 
 // What one run gives before it is compared.
 struct Measured {
@@ -29,15 +25,16 @@ StepsTaken steps_taken(const Preparation& preparation) {
   return {before, after, before / first.bound.step, after / last.bound.step, last.plan.joint_steps};
 }
 
-// Run time is that of the steps: samples are taken outside of the clock.
+// Run time is that of the steps, by the processor's clock: what else a machine does does not count. Samples
+// are taken outside of it.
 Measured measure_once(const Problem& problem, const Scene& scene) {
   Simulation sim(scene, 1);
   const Timeline& timeline = sim.preparation().timeline;
   Measured out{{}, steps_taken(sim.preparation()), 0, 0};
   for (int s = 1; s <= problem.samples; ++s) {
-    const double begin = seconds();
+    const double begin = bench::thread_seconds();
     sim.advance_to(timeline.step_at(problem.end * s / problem.samples));
-    out.seconds += seconds() - begin;
+    out.seconds += bench::thread_seconds() - begin;
     out.track.times.push_back(sim.time());
     out.track.samples.push_back(problem.sample(sim));
   }
