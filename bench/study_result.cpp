@@ -19,21 +19,27 @@ const RunResult* best_within(const ProblemResult& result, double error, double r
   return best;
 }
 
-std::string why_none(const ProblemResult& result, double error, double residual) {
+static const RunResult* least_error(const ProblemResult& result, double residual) {
   const RunResult* nearest = nullptr;
   for (const RunResult& run : result.runs)
     if (run.good() && run.residual <= residual &&
         (nearest == nullptr || run.sure_error() < nearest->sure_error()))
       nearest = &run;
+  return nearest;
+}
+
+std::string why_none(const ProblemResult& result, double error, double residual) {
+  const RunResult* nearest = least_error(result, residual);
   if (nearest == nullptr) return "no run";
   char words[200];
+  const double own = 100 * result.reference_error(), chance = 100 * nearest->uncertainty();
+  char by_chance[40] = "";
+  if (chance > 0) std::snprintf(by_chance, sizeof by_chance, ", by chance %.2g %% more", chance);
   if (result.reference_error() >= error)
-    std::snprintf(words, sizeof words, "the reference's own error of %.2g %% decides nothing so small",
-                  100 * result.reference_error());
+    std::snprintf(words, sizeof words, "the reference's own error of %.2g %% decides nothing so small", own);
   else
-    std::snprintf(words, sizeof words,
-                  "the nearest is off by %.2g %%, by chance %.2g %% more, the reference by %.2g %%",
-                  100 * nearest->error(), 100 * nearest->uncertainty(), 100 * result.reference_error());
+    std::snprintf(words, sizeof words, "the nearest is off by %.2g %%%s, the reference by %.2g %%",
+                  100 * nearest->error(), by_chance, own);
   return words;
 }
 
