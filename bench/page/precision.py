@@ -79,7 +79,8 @@ def _row(problem: Problem, run: dict[str, Any], others: list[str]) -> Row:
     return [run["series"], run["elements"], run["step_s"], run["runs"], 100 * run["errors"]["error"], _percent(apart),
             run["seconds_per_simulated_second"], run["energy_residual"], problem["orders"].get(run["series"]),
             problem.get("step_orders", {}).get(run.get("but_for_the_step")),
-            *(_percent(run["errors"].get(name)) for name in others), "the paper's choice" if run["papers_choice"] else ""]
+            *(_percent(run["errors"].get(name)) for name in others),
+            "the paper's choice" if run["papers_choice"] else ""]
 
 
 def _percent(share: float | None) -> float | None:
