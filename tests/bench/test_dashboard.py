@@ -124,9 +124,10 @@ class Page(unittest.TestCase):
                          ["the paper's own choices", "contact, step 1e-06 s", "sliding, step 1e-06 s"])
         self.assertEqual(chart["series"][0]["values"], [[0.25, 4.0], [0.5, 2.0]])
         self.assertIn("within 10 %: sliding, step 1e-06 s, 6 elements; within 0.01 %: none (the "
-                      "reference decides nothing so small). Among those with an energy residual of 0.0001 at most: within "
-                      "10 %: sliding, step 1e-06 s, 12 elements.", page)
-        self.assertIn("reference&#x27;s own is 0.0400 % (peak force (by chance) 5.00 %). Fastest, with that and what chance may add counted in: ", page)
+                      "reference decides nothing so small). Among those with an energy residual of 0.0001 at most: "
+                      "within 10 %: sliding, step 1e-06 s, 12 elements.", page)
+        self.assertIn("reference&#x27;s own is 0.0400 % (peak force (by chance) 5.00 %). Fastest, with that "
+                      "and what chance may add counted in: ", page)
         self.assertIn("at t = 1 s &lt;something&gt; went wrong", page)
 
     def test_the_study_s_other_measures_have_columns_and_older_files_have_none(self) -> None:
