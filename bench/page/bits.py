@@ -33,7 +33,7 @@ def scenes(run: Run) -> list[Scene]:
             for state_hash in result.labels:
                 at_commit = found.setdefault((scene, run.commit_of(result.name)), {})
                 at_commit.setdefault(state_hash, []).append(threads)
-    return [Scene(scene, commit, hashes) for (scene, commit), hashes in found.items()]
+    return [Scene(scene, commit, hashes) for (scene, commit), hashes in sorted(found.items())]
 
 
 def differences(run: Run) -> list[str]:
