@@ -20,6 +20,7 @@ class Badge:
 Cell = Union[str, float, Badge, None]  # None: not measured
 Row = Sequence[Cell]
 Chart = dict[str, Any]
+Table = tuple[list[str], Sequence[Row]]  # headers, rows
 
 
 @dataclass
@@ -33,6 +34,7 @@ class Figure:
     headers: list[str]
     rows: Sequence[Row]
     chart: Chart = field(default_factory=dict)
+    findings: Table | None = None  # what to read off the chart, shown below its caption
 
 
 @dataclass(frozen=True)

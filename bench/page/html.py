@@ -22,12 +22,12 @@ def cell(value: Cell) -> str:
     return tag("td", words, "n")
 
 
-def table(headers: list[str], rows: Sequence[Row]) -> str:
-    """A table whose numeric columns stand to the right."""
+def table(headers: list[str], rows: Sequence[Row], look: str = "scroll tall") -> str:
+    """A table whose numeric columns stand to the right; a tall one scrolls in its place."""
     numeric = [all(not isinstance(row[i], (str, Badge)) for row in rows) for i in range(len(headers))]
     head = "".join(tag("th", escape(words), "n" if right else "") for words, right in zip(headers, numeric))
     body = "".join(tag("tr", "".join(map(cell, row))) + "\n" for row in rows)
-    return tag("div", tag("table", tag("thead", tag("tr", head)) + tag("tbody", body)), "scroll tall")
+    return tag("div", tag("table", tag("thead", tag("tr", head)) + tag("tbody", body)), look)
 
 
 def canvas(title: str, attribute: str, height: int) -> str:
@@ -53,5 +53,6 @@ def figure_html(figure: Figure, index: int) -> str:
     numbers = table(figure.headers, figure.rows)
     if not figure.chart:
         return tag("figure", title + caption + numbers, "listing")
+    findings = table(*figure.findings, "scroll") if figure.findings else ""
     drawn = canvas(figure.title, f'data-figure="{index}"', chart_height(figure.chart))
-    return tag("figure", title + drawn + caption + tag("details", "<summary>Numbers</summary>" + numbers), "plot")
+    return tag("figure", title + drawn + caption + findings + tag("details", "<summary>Numbers</summary>" + numbers), "plot")

@@ -6,7 +6,7 @@ from pathlib import Path
 from typing import Any
 
 from command_line import BadInput
-from page.figure import GREY, Figure, Row, Series, lines, origin, rounded
+from page.figure import GREY, Figure, Row, Series, Table, lines, origin, rounded
 from stored_run import parse_json, read_text
 from text import number
 
@@ -53,9 +53,10 @@ def precision(problem: Problem, made: str) -> Figure:
         ["method and step", "elements", "step, s", "runs", "error, %", "a run from the mean, %", "run time, s/s",
          "energy residual", "order as far as errors fall", "order in the step",
          *(f"{_words(problem, name)}, %" for name in others), "remark"],
-        [_row(problem, run, others) for run in problem["runs"]],
+        [*(_row(problem, run, others) for run in problem["runs"]), _of_reference(problem, others)],
         lines([Series("the paper's own choices", GREY, papers), *series],  # the first is drawn on top
-              {"title": "run time per simulated second, s", "log": True}, {"title": "error, %", "log": True}))
+              {"title": "run time per simulated second, s", "log": True}, {"title": "error, %", "log": True}),
+        _findings(problem))
 
 
 def _point(run: dict[str, Any]) -> tuple[float | None, float | None]:
@@ -88,25 +89,11 @@ def _percent(share: float | None) -> float | None:
 
 
 def _caption(problem: Problem) -> str:
-    """What the error is, and the fastest setting for each wanted one."""
-    best = "; ".join(_best(problem, wanted) for wanted in problem["best"])
-    others = [wanted for wanted in problem.get("best_of_small_residual", [])  # older files have none
-              if best_within(problem, wanted["error"]) != best_within(problem, wanted["error"], SMALL_RESIDUAL)]
-    accounted = "; ".join(_best(problem, wanted, SMALL_RESIDUAL) for wanted in others)
-    if accounted:
-        best += f". Among those with an energy residual of {SMALL_RESIDUAL:g} at most: {accounted}"
+    """What the error is."""
     runs = max(run["runs"] for run in problem["runs"])  # more than one where a problem is chaotic
     means = f", of means over up to {runs} runs that begin a little apart" if runs > 1 else ""
-    return (f"Lower left is better. Error: {problem['measure']}{means}; the reference's own is "
-            f"{number(100 * problem['reference_error'])} %{_of_other_measures(problem)}. Fastest, with that and what "
-            f"chance may add counted in: {best}.")
-
-
-def _of_other_measures(problem: Problem) -> str:
-    """What the reference is off by, by other measures than the first."""
-    known = {name: problem["measures"][name]["reference_error"] for name in _other_measures(problem)}
-    words = [f"{_words(problem, name)} {number(100 * error)} %" for name, error in known.items() if error]
-    return f" ({', '.join(words)})" if words else ""
+    return (f"Lower left is better. Error: {problem['measure']}{means}. The fastest are within an error with what chance "
+            f"may add and what the reference may be off by, {number(100 * problem['reference_error'])} %.")
 
 
 def best_within(problem: Problem, error: float, residual: float = math.inf) -> dict[str, Any] | None:
@@ -118,8 +105,25 @@ def best_within(problem: Problem, error: float, residual: float = math.inf) -> d
     return min(runs, key=lambda run: run["seconds_per_simulated_second"], default=None)
 
 
-def _best(problem: Problem, wanted: dict[str, Any], residual: float = math.inf) -> str:
-    run = best_within(problem, wanted["error"], residual)
-    why = f" ({wanted['why']})" if "why" in wanted else ""  # older files do not say
-    words = f"none{why}" if run is None else f"{run['series']}, {run['elements']} elements"
-    return f"within {100 * wanted['error']:g} %: {words}"
+def _findings(problem: Problem) -> Table:
+    """The fastest setting for each wanted error, of all and of those that account for the energy."""
+    rows: list[Row] = []
+    for wanted in problem["best"]:
+        error = wanted["error"]
+        any_run, sound = best_within(problem, error), best_within(problem, error, SMALL_RESIDUAL)
+        why = f"none ({wanted['why']})" if "why" in wanted else "none"  # older files do not say
+        rows.append([f"{100 * error:g} %", *_best(any_run, why), *_best(sound, "none")])
+    return ["within", "fastest", "s/s", f"with an energy residual of {SMALL_RESIDUAL:g} at most", "s/s"], rows
+
+
+def _best(run: dict[str, Any] | None, none: str) -> tuple[str, float | None]:
+    if run is None:
+        return none, None
+    return f"{run['series']}, {run['elements']} elements", run["seconds_per_simulated_second"]
+
+
+def _of_reference(problem: Problem, others: list[str]) -> Row:
+    """What the reference itself may be off by."""
+    errors = [problem["measures"][name]["reference_error"] for name in others]
+    return ["the reference itself", None, None, None, 100 * problem["reference_error"], *[None] * 5,
+            *(_percent(error) for error in errors), ""]

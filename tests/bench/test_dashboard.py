@@ -123,11 +123,13 @@ class Page(unittest.TestCase):
         self.assertEqual([series["label"] for series in chart["series"]],
                          ["the paper's own choices", "contact, step 1e-06 s", "sliding, step 1e-06 s"])
         self.assertEqual(chart["series"][0]["values"], [[0.25, 4.0], [0.5, 2.0]])
-        self.assertIn("within 10 %: sliding, step 1e-06 s, 6 elements; within 0.01 %: none (the "
-                      "reference decides nothing so small). Among those with an energy residual of 0.0001 at most: "
-                      "within 10 %: sliding, step 1e-06 s, 12 elements.", page)
-        self.assertIn("reference&#x27;s own is 0.0400 % (peak force (by chance) 5.00 %). Fastest, with that "
-                      "and what chance may add counted in: ", page)
+        (figure,) = precision.figures(sample.of_study())
+        assert figure.findings is not None
+        self.assertEqual(figure.findings[1], [
+            ["10 %", "sliding, step 1e-06 s, 6 elements", 0.003, "sliding, step 1e-06 s, 12 elements", 0.006],
+            ["0.01 %", "none (the reference decides nothing so small)", None, "none", None]])
+        self.assertIn("what the reference may be off by, 0.0400 %.", figure.caption)
+        self.assertIn("<td>sliding, step 1e-06 s, 12 elements</td>", page)
         self.assertIn("at t = 1 s &lt;something&gt; went wrong", page)
 
     def test_the_study_s_other_measures_have_columns_and_older_files_have_none(self) -> None:
@@ -135,7 +137,8 @@ class Page(unittest.TestCase):
         (problem,) = study["problems"]
         (figure,) = precision.figures(study)
         column = figure.headers.index("peak force (by chance), %")
-        self.assertEqual([row[column] for row in figure.rows], [20.0] * 6 + [None])
+        self.assertEqual([row[column] for row in figure.rows], [20.0] * 6 + [None, 5.0])
+        self.assertEqual(figure.rows[-1][0], "the reference itself")
         self.assertEqual(figure.rows[3][figure.headers.index("order in the step")], 2.0)
         for key in ("measures", "step_orders"):
             del problem[key]
@@ -143,7 +146,8 @@ class Page(unittest.TestCase):
             best.pop("why", None)
         (older,) = precision.figures(study)
         self.assertNotIn("peak force (by chance), %", older.headers)
-        self.assertIn("within 0.01 %: none.", older.caption)
+        assert older.findings is not None
+        self.assertEqual(older.findings[1][1][1], "none")
 
     def test_chance_and_the_reference_s_own_error_count_against_a_setting(self) -> None:
         (problem,) = sample.of_study()["problems"]

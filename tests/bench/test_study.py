@@ -183,7 +183,7 @@ class Study(unittest.TestCase):
         figures = precision.figures(self.study)
         self.assertEqual(len(figures), len(problems))
         for problem, figure in zip(problems, figures):
-            self.assertEqual(len(figure.rows), len(problem["runs"]))
+            self.assertEqual(len(figure.rows), len(problem["runs"]) + 1, "and the reference")
             chaotic = problem["name"] in ("capture", "edge_closure")
             self.assertEqual(f"means over up to {max(run['runs'] for run in problem['runs'])} runs" in figure.caption, chaotic)
             self.assertTrue(all(len(row) == len(figure.headers) for row in figure.rows), problem["name"])
