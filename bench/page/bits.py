@@ -33,7 +33,8 @@ def scenes(run: Run) -> list[Scene]:
             for state_hash in result.labels:
                 at_commit = found.setdefault((scene, run.commit_of(result.name)), {})
                 at_commit.setdefault(state_hash, []).append(threads)
-    return [Scene(scene, commit, hashes) for (scene, commit), hashes in sorted(found.items())]
+    return [Scene(scene, commit, hashes) for (scene, commit), hashes in
+            sorted(found.items(), key=lambda item: item[0][0])]
 
 
 def differences(run: Run) -> list[str]:

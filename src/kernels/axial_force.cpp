@@ -24,18 +24,19 @@ inline void groups(const SpanView& s, const Span& span) {
 // Addresses of its own: those in the arguments could change with each store, for all that a compiler knows.
 template <Book::Sum book>
 struct Rows {
-  double *energy, *power;
+  double *energy = nullptr, *power = nullptr;  // null where the kernel has none
 
-  Rows(const AxialArguments& g, Index row)
-      : energy(g.booked + row * lanes), power((with_energy(book) ? g.due : g.booked) + row * lanes) {}
+  Rows(const AxialArguments& g, Index row) {
+    if (with_energy(book)) energy = g.booked + row * lanes;
+    if (with_power(book)) power = (with_energy(book) ? g.due : g.booked) + row * lanes;
+  }
   void open(Sums& sums) const {
     if (with_energy(book)) read(energy, sums.energy);
     if (with_power(book)) read(power, sums.power);
   }
   void close(const Sums& sums) {
-    if (with_energy(book)) write(energy, sums.energy);
-    if (with_power(book)) write(power, sums.power);
-    energy += lanes, power += lanes;
+    if (with_energy(book)) write(energy, sums.energy), energy += lanes;
+    if (with_power(book)) write(power, sums.power), power += lanes;
   }
 };
 
