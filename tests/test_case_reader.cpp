@@ -403,6 +403,14 @@ TEST(CaseReader, AStarOverridesAllPartsOfAKind) {
   for (const Mechanism& each : scene.mechanisms) EXPECT_NEAR(each.launch_velocity.norm(), 2, 1e-12);
   expect_error(minimal, {"--set ring.*.mass_kg=4: error: the case has no [ring.NAME]"},
                {{"ring.*.mass_kg", "4"}});
+  try {
+    read_case(source_dir / "cases/capture.toml", {{"thread.*.elements", "abc"}});
+    FAIL() << "not refused";
+  } catch (const CaseError& error) {
+    const std::string said = error.what();
+    EXPECT_NE(said.find("thread.c_top.elements: found"), std::string::npos) << said;
+    EXPECT_EQ(said.find("thread.c_right"), std::string::npos) << "told for each thread: " << said;
+  }
   expect_error(minimal, {"--set thread.*.elemnts=4: error: unknown key 'thread.main.elemnts'"},
                {{"thread.*.elemnts", "4"}});
 }

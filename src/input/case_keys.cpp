@@ -384,17 +384,13 @@ const Section<Probe>& probe_section() {
        .named = true,
        .about =
            "A quantity recorded often. `position`, `displacement`, `velocity` and `speed` are of a node or "
-           "ring; "
-           "`force` is the contact force on a ring or node; `tension` of a thread, net or mechanism is the "
-           "greatest of its elements, of a node the greatest of the elements that meet there, of a ring that "
-           "of "
-           "threads that slide through it, the same on both sides; `material_coordinate` of a ring is how "
-           "much "
-           "unstretched thread lies between the start of the one that slides through it and the ring; "
-           "`mouth_area` "
-           "(of the convex hull of all ring centres, in the plane that fits them best), `mouth_spread` "
-           "(greatest "
-           "distance between ring centres) and `energy` are of the whole scene."},
+           "ring; `force` is the contact force on a ring or node; `tension` of a thread, net or mechanism is "
+           "the greatest of its elements, of a node the greatest of the elements that meet there, of a ring "
+           "that of threads that slide through it, the same on both sides; `material_coordinate` of a ring "
+           "is "
+           "how much unstretched thread lies between the start of the one that slides through it and the "
+           "ring; `mouth_area` (of the convex hull of all ring centres, in the plane that fits them best), "
+           "`mouth_spread` (greatest distance between ring centres) and `energy` are of the whole scene."},
       {
           {{.name = "quantity",
             .type = choice,

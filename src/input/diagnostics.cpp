@@ -32,6 +32,9 @@ std::string shortened(const std::string& text) {
 }  // namespace
 
 void Diagnostics::error(Place place, const std::string& message, const std::string& help) {
+  // thread.* may be wrong for each of many threads: one says it all
+  const auto same = [&](const Entry& one) { return one.place.override_number == place.override_number; };
+  if (place.override_number > 0 && std::any_of(errors_.begin(), errors_.end(), same)) return;
   errors_.push_back({place, shortened(message), printable(help)});
   if (errors_.size() >= max_kept) throw_all();
 }

@@ -22,7 +22,7 @@ class Diagnostics {
       : file_name_(std::move(file_name)), text_(text), overrides_(overrides) {}
 
   /// Notes an error; `help` (allowed keys, values, ...) is shown on a line of its own. Throws after a
-  /// thousand.
+  /// thousand. Of an override the first counts.
   void error(Place place, const std::string& message, const std::string& help = "");
   bool empty() const { return errors_.empty(); }
   /// Throws CaseError with the first 20 errors, overrides first, then in the order of the file.
