@@ -35,6 +35,7 @@ class Stepper {
   void use_threads(int threads, State& state);
   /// Threads keep to cores from now on, where that can be: see core_binding.hpp.
   void bind_threads() { bind_ = true; }
+  bool binds_threads() const { return bind_; }
 
   /// To be called when the state was set back to that of an earlier step.
   void start_over();
