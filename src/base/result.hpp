@@ -98,8 +98,7 @@ struct Event {
   double time = 0;
   std::string kind;  ///< ring_contact, target_contact, separation, mouth_closed, target_enclosed,
                      ///< thread_left, thread_end
-  std::string
-      name;  ///< of the ring, target, mechanism or mouth; "r: thread.main", "r: node 0 of thread.main"
+  std::string name;  ///< of the ring, target, mechanism or mouth; of the ring and the thread or node in it
 };
 
 struct RingRecord {

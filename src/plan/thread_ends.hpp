@@ -13,7 +13,8 @@ struct DrawnEnd {
 };
 
 /// Those ends that are at a ring in their element: nearer than its opening is wide, or through it by no more
-/// than a quarter of the element, as what comes fast flies on before its thread draws it back.
+/// than a quarter of the element, as what comes fast flies on before its thread draws it back. A thread that
+/// bends back in the ring's plane has no side that tells: its end counts from that quarter on.
 std::vector<DrawnEnd> drawn_ends(const Look& now);
 
 }  // namespace cinch
