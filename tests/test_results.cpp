@@ -300,6 +300,58 @@ TEST(Results, ProbeRowsAfterTheLastFrameAreKept) {
   EXPECT_EQ(Result(scratch.path).probe_times(), std::vector<double>{1});
 }
 
+TEST(Results, FramesWaitToBeHandedOverTogether) {
+  const Scratch scratch;
+  const ResultModel model = small_model(40);
+  const auto found = [&] { return Result(scratch.path).frames(); };
+  {
+    Recorder recorder(scratch.path, model, {.patience = 1e6});
+    recorder.probes(0, probe_row(0));
+    recorder.frame(small_frame(model, 0));
+    EXPECT_EQ(found(), 1) << "the first waits for nobody";
+    for (int k = 1; k < 4; ++k) {
+      recorder.probes(k, probe_row(k));
+      recorder.frame(small_frame(model, k));
+      recorder.catch_up();
+    }
+    EXPECT_EQ(found(), 1);
+    recorder.sync();
+    EXPECT_EQ(found(), 4);
+    EXPECT_EQ(Result(scratch.path).probe_times().size(), 4u);
+    recorder.frame(small_frame(model, 4));
+    EXPECT_EQ(found(), 4);
+  }
+  const Result result(scratch.path);
+  ASSERT_EQ(result.frames(), 5);
+  for (int k = 0; k < 5; ++k) EXPECT_TRUE(same_bits(result.frame(k), small_frame(model, k))) << k;
+}
+
+TEST(Results, FramesThatHaveWaitedLongEnoughAreHandedOver) {
+  const Scratch scratch;
+  const ResultModel model = small_model(4);
+  Recorder recorder(scratch.path, model, {.patience = 0.01});
+  for (int k = 0; k < 2; ++k) recorder.frame(small_frame(model, k));
+  std::this_thread::sleep_for(std::chrono::milliseconds(20));
+  recorder.catch_up();
+  EXPECT_EQ(Result(scratch.path).frames(), 2);
+}
+
+TEST(Results, WaitingFramesTakeLittleMemory) {
+  const Scratch scratch;
+  const ResultModel model = small_model(4000);  // 96 kB of places: every frame goes straight to the file
+  Recorder recorder(scratch.path, model, {.patience = 1e6});
+  for (int k = 0; k < 3; ++k) recorder.frame(small_frame(model, k));
+  recorder.sync();
+  const Result result(scratch.path);
+  for (int k = 0; k < 3; ++k) EXPECT_TRUE(same_bits(result.frame(k), small_frame(model, k))) << k;
+
+  const Scratch other;
+  const ResultModel small = small_model(400);  // 9.6 kB: a hundred of them and some make a megabyte
+  Recorder patient(other.path, small, {.patience = 1e6});
+  for (int k = 0; k < 120; ++k) patient.frame(small_frame(small, k));
+  EXPECT_GT(Result(other.path).frames(), 100);
+}
+
 TEST(Results, SummaryComesBackToTheBit) {
   Summary summary = small_summary();
   summary.angular_momentum_drift = 2.0 / 3;
@@ -404,9 +456,9 @@ TEST(Results, FrameOfTheWrongSizeIsADefect) {
 // ---------------------------------------------------------------------------------------------------------------
 // A writer that dies
 
-[[noreturn]] void write_until_killed(const fs::path& directory, const ResultModel& model) {
+[[noreturn]] void write_until_killed(const fs::path& directory, const ResultModel& model, double patience) {
   try {
-    Recorder recorder(directory, model, {});
+    Recorder recorder(directory, model, {.patience = patience});
     for (int k = 0;; ++k) {
       recorder.probes(k, probe_row(k));
       recorder.frame(small_frame(model, k));
@@ -417,10 +469,11 @@ TEST(Results, FrameOfTheWrongSizeIsADefect) {
 }
 
 /// Starts a writer, lets it work for `delay` after its first frame (run.xdmf comes after it), and kills it.
-void kill_a_writer(const fs::path& directory, const ResultModel& model, std::chrono::microseconds delay) {
+void kill_a_writer(const fs::path& directory, const ResultModel& model, std::chrono::microseconds delay,
+                   double patience) {
   const pid_t child = fork();
   ASSERT_GE(child, 0);
-  if (child == 0) write_until_killed(directory, model);
+  if (child == 0) write_until_killed(directory, model, patience);
   for (int waits = 0; waits < 20'000 && !fs::exists(directory / "run.xdmf"); ++waits) {
     std::this_thread::sleep_for(std::chrono::milliseconds(1));
     ASSERT_EQ(waitpid(child, nullptr, WNOHANG), 0) << "the writer ended by itself";
@@ -439,7 +492,8 @@ TEST(Results, KilledWriterLeavesWholeFrames) {
   int most = 0;
   for (int repetition = 0; repetition < 12; ++repetition) {
     const Scratch scratch;
-    kill_a_writer(scratch.path, model, std::chrono::microseconds(delay_us(random)));
+    const double patience = repetition % 2 == 0 ? 0 : 0.002;  // s
+    kill_a_writer(scratch.path, model, std::chrono::microseconds(delay_us(random)), patience);
     if (HasFatalFailure()) return;
 
     const Result result(scratch.path);

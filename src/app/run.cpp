@@ -90,6 +90,7 @@ class Run {
         advance(end);
         record();
         keep_if_due();
+        recorder_.catch_up();
         progress_.update(simulation_.time(), simulation_.step());
       }
     } catch (const NumericalError& error) {  // the frames so far and what led there are kept
@@ -118,7 +119,8 @@ class Run {
   }
   static Recorder record_in(const fs::path& folder, const Scene& scene, const Simulation& simulation,
                             const Account& account, const Restart* from) {
-    const Recorder::Options options{scene.output.compress,
+    constexpr double patience = 0.25;  // s
+    const Recorder::Options options{scene.output.compress, patience,
                                     std::llround(scene.time.end / scene.output.frame_interval) + 2,
                                     std::llround(scene.time.end / probe_interval(scene)) + 2};
     if (from == nullptr) return Recorder(folder, simulation.result_model(), options);

@@ -36,6 +36,8 @@ namespace {
 // can cut a write at a page boundary, so each node of an index (2 to 3 kB) lies inside one page.
 constexpr hsize_t kAlignFrom = 2048, kPage = 4096;
 
+constexpr std::size_t kSmallRows = 1 << 16;  // bytes
+
 // Once a file was abandoned none is closed any more: opened again for reading in this process it would share
 // the half-written state, and closing it would write that.
 std::atomic<bool> some_file_was_abandoned = false;
@@ -305,15 +307,32 @@ Series<T>::Series(File& file, std::string name, const SeriesLayout& layout)
   if (!layout.unit.empty()) file.set_attribute(name_, "unit", layout.unit);
 }
 
+// Large rows go straight to HDF5.
 template <class T>
 void Series<T>::append(std::span<const T> values) {
+  if (values.size() % product(row_) != 0) file_->fail("append to " + name_ + " (not a whole number of rows)");
+  if (values.size_bytes() < kSmallRows) {
+    waiting_.insert(waiting_.end(), values.begin(), values.end());
+  } else {
+    hand_over();
+    write(values);
+  }
+}
+
+template <class T>
+void Series<T>::hand_over() {
+  write(waiting_);
+  waiting_.clear();
+}
+
+template <class T>
+void Series<T>::write(std::span<const T> values) {
   silence();
   if (values.empty()) return;
   Shape start(row_.size() + 1, 0), count{values.size() / product(row_)}, total{rows_ + count[0]};
   start[0] = rows_;
   count.insert(count.end(), row_.begin(), row_.end());
   total.insert(total.end(), row_.begin(), row_.end());
-  if (product(count) != values.size()) file_->fail("append to " + name_ + " (not a whole number of rows)");
   if (H5Dset_extent(dataset_.get(), total.data()) < 0) file_->fail("extend " + name_);
   const Handle memory = make_space(count);
   const Handle space(H5Dget_space(dataset_.get()), H5Sclose);

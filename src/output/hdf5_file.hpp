@@ -116,7 +116,8 @@ struct SeriesLayout {
   std::string unit;        ///< attribute `unit`, if not empty
 };
 
-/// A data set that grows along its first dimension.
+/// A data set that grows along its first dimension. Small rows wait in memory until they are handed over, as
+/// each call of HDF5 takes longer than to write them.
 template <class T>
 class Series {
  public:
@@ -124,15 +125,26 @@ class Series {
   /// Appends whole rows; the number of values must be a multiple of a row's.
   void append(std::span<const T> values);
   void append(T value) { append(std::span<const T>(&value, 1)); }
-  hsize_t rows() const { return rows_; }
+  /// Writes the rows that wait.
+  void hand_over();
+  hsize_t rows() const { return rows_; }  ///< handed over
+  std::size_t waiting_bytes() const { return waiting_.size() * sizeof(T); }
 
  private:
+  void write(std::span<const T> values);
+
   File* file_;
   std::string name_;
   Shape row_;
   hsize_t rows_ = 0;
+  std::vector<T> waiting_;
   Handle dataset_;
 };
+
+template <class... SeriesOfAnyType>
+void hand_over(SeriesOfAnyType&... series) {
+  (series.hand_over(), ...);
+}
 
 /// A number kept as an attribute of an object: raised when what it counts is complete on disk.
 class Counter {

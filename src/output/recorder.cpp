@@ -32,6 +32,7 @@ constexpr hsize_t kLargestPlain = hsize_t{1} << 31;  // bytes: HDF5 takes chunks
 constexpr hsize_t kIndexChunks = 60;                 // a node of its index takes 64
 constexpr hsize_t kScalarRows = 1024;                // rows in a chunk of single numbers
 constexpr auto kXdmfInterval = std::chrono::seconds(5);
+constexpr std::size_t kMostWaiting = 1 << 20;  // bytes of one data set
 
 /// Of so many rows, those in each of as many chunks as one index node has room for.
 hsize_t per_chunk(std::int64_t rows) {
@@ -97,6 +98,7 @@ struct StepTable {
     points.append(point_offset);
     cells.append(cell_offset);
   }
+  void hand_over() { h5::hand_over(times, parts, zeros, topology, points, cells); }
   Reals times;
   Integers parts, zeros, topology, points, cells;
 };
@@ -118,6 +120,7 @@ struct NetSeries {
     strain.append(frame.strain);
     active.append(frame.active);
   }
+  void hand_over() { h5::hand_over(position, velocity, contact_force, tension, strain, active); }
   Reals position, velocity, contact_force, tension, strain;
   Bytes active;
 };
@@ -133,6 +136,7 @@ struct RingSeries {
     normal.append(flat(frame.ring_normal));
     force.append(flat(frame.ring_force));
   }
+  void hand_over() { h5::hand_over(center, normal, force); }
   Reals center, normal, force;
 };
 
@@ -156,6 +160,7 @@ struct JointSeries {
     tension.append(trace.tension);
     active.append(trace.active);
   }
+  void hand_over() { h5::hand_over(element, waypoint, points, tension, active); }
   Ways ways;
   h5::Series<std::int32_t> element;
   Reals waypoint, points, tension;
@@ -231,18 +236,19 @@ struct Recorder::Impl {
   std::optional<JointSeries> joints;
   std::optional<Reals> probe_times, probe_values;
   std::optional<h5::Counter> probe_rows;
-  std::vector<double> times;                        // s, of all frames
-  std::vector<double> waiting_times, waiting_rows;  // probe rows not yet written
-  Clock::time_point last_xdmf;
-  bool finished = false;
+  std::vector<double> times;  // s, of all frames
+  std::chrono::duration<double> patience;
+  Clock::time_point last_hand_over, last_xdmf;
+  bool waits = false, finished = false;
 
   Impl(const std::filesystem::path& folder, ResultModel description, const Options& options, bool draft);
   void write_description();
   void copy(const Earlier& earlier);
   void take_place();
   void append(const Frame& frame);
-  void write_waiting_probes();
-  void commit();
+  void append_probes(std::span<const double> at, std::span<const double> rows);
+  bool may_wait(Clock::time_point now) const;
+  void hand_over();
   void write_events(const std::vector<Event>& events);
 };
 
@@ -255,7 +261,8 @@ Recorder::Impl::Impl(const std::filesystem::path& folder, ResultModel descriptio
       steps(file, options.frames),
       frame_count(file, kSteps, kFrameCount),
       net(file, size.nodes, size.elements, options),
-      step_numbers(file, kStepNumbers, numbers(options.frames)) {
+      step_numbers(file, kStepNumbers, numbers(options.frames)),
+      patience(options.patience) {
   if (!model.joints.empty()) {
     joints.emplace(file, Ways(model), model.joints.size(), options);
     size.way_points = joints->ways.points(), size.way_segments = joints->ways.segments();
@@ -292,17 +299,22 @@ void Recorder::Impl::append(const Frame& frame) {
   if (rings) rings->append(frame);
   if (joints) joints->append(frame);
   times.push_back(frame.time);
+  waits = true;
+}
+
+void Recorder::Impl::append_probes(std::span<const double> at, std::span<const double> rows) {
+  probe_times->append(at);
+  probe_values->append(rows);
+  waits = true;
 }
 
 void Recorder::Impl::copy(const Earlier& earlier) {
   for (int k = 0; k < earlier.frames; ++k) append(earlier.result.frame(k));
   if (earlier.probe_rows > 0) {
     const std::vector<double> all = earlier.result.probe_times();
-    waiting_times.assign(all.begin(), all.begin() + static_cast<std::ptrdiff_t>(earlier.probe_rows));
-    waiting_rows = earlier.result.probe_rows(earlier.probe_rows);
-    write_waiting_probes();
+    append_probes(std::span(all).first(earlier.probe_rows), earlier.result.probe_rows(earlier.probe_rows));
   }
-  commit();
+  hand_over();
 }
 
 // The draft holds what the old file held up to there.
@@ -316,20 +328,26 @@ void Recorder::Impl::take_place() {
   file.set_path(place);
 }
 
-void Recorder::Impl::write_waiting_probes() {
-  if (waiting_times.empty()) return;
-  probe_times->append(waiting_times);
-  probe_values->append(waiting_rows);
-  waiting_times.clear();
-  waiting_rows.clear();
+// The first frame may not: who looks on wants to see something.
+bool Recorder::Impl::may_wait(Clock::time_point now) const {
+  const std::size_t rows = probe_values ? probe_values->waiting_bytes() : 0;
+  return last_hand_over != Clock::time_point() && now - last_hand_over < patience &&
+         std::max(net.position.waiting_bytes(), rows) < kMostWaiting;
 }
 
 // The counters rise only after everything they announce has been handed to the disk.
-void Recorder::Impl::commit() {
+void Recorder::Impl::hand_over() {
+  h5::hand_over(steps, net, step_numbers);
+  for (Reals& term : energy) term.hand_over();
+  if (rings) rings->hand_over();
+  if (joints) joints->hand_over();
+  if (probe_rows) h5::hand_over(*probe_times, *probe_values);
   file.flush();
   frame_count.set(static_cast<std::int64_t>(times.size()));
   if (probe_rows) probe_rows->set(static_cast<std::int64_t>(probe_times->rows()));
   file.flush();
+  waits = false;
+  last_hand_over = Clock::now();
 }
 
 void Recorder::Impl::write_events(const std::vector<Event>& events) {
@@ -360,22 +378,24 @@ Recorder::Recorder(const std::filesystem::path& directory, ResultModel model, co
 Recorder::~Recorder() {
   if (!impl_ || impl_->finished) return;
   try {
-    impl_->write_waiting_probes();
-    impl_->commit();
+    impl_->hand_over();
     write_xdmf(impl_->directory, impl_->model, impl_->size, impl_->times);
   } catch (const std::exception&) {  // what was committed before stays readable
   }
 }
 
 void Recorder::frame(const Frame& frame) {
-  Impl& run = *impl_;
-  if (run.finished) throw Error(ExitCode::internal, "recorder: a frame after the end");
-  run.append(frame);
-  run.write_waiting_probes();
-  run.commit();
+  if (impl_->finished) throw Error(ExitCode::internal, "recorder: a frame after the end");
+  impl_->append(frame);
+  catch_up();
+}
 
+void Recorder::catch_up() {
+  Impl& run = *impl_;
   const auto now = Clock::now();
-  if (run.times.size() == 1 || now - run.last_xdmf > kXdmfInterval) {
+  if (!run.waits || run.may_wait(now)) return;
+  run.hand_over();
+  if (!run.times.empty() && (run.last_xdmf == Clock::time_point() || now - run.last_xdmf > kXdmfInterval)) {
     write_xdmf(run.directory, run.model, run.size, run.times);
     run.last_xdmf = now;
   }
@@ -387,13 +407,11 @@ void Recorder::probes(double time, std::span<const double> values) {
     throw Error(ExitCode::internal, "recorder: a probe row does not have the model's columns");
   }
   if (values.empty()) return;
-  run.waiting_times.push_back(time);
-  run.waiting_rows.insert(run.waiting_rows.end(), values.begin(), values.end());
+  run.append_probes({&time, 1}, values);
 }
 
 void Recorder::sync() {
-  impl_->write_waiting_probes();
-  impl_->commit();
+  impl_->hand_over();
   Descriptor(impl_->file.path(), O_RDWR).sync();
 }
 
@@ -401,10 +419,9 @@ void Recorder::finish(const Summary& summary) {
   Impl& run = *impl_;
   if (run.finished) throw Error(ExitCode::internal, "recorder: finished twice");
   const std::string json = summary_to_json(summary);
-  run.write_waiting_probes();
   run.write_events(summary.events);
   run.file.write_text(kSummary, json);
-  run.commit();
+  run.hand_over();
   run.finished = true;
   write_xdmf(run.directory, run.model, run.size, run.times);
   replace_text_file(run.directory / kSummaryFile, json);

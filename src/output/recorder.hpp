@@ -10,13 +10,14 @@
 
 namespace cinch {
 
-/// Appends frames and probe rows to a result file. After each frame() the file on disk is complete up to that
-/// frame, whatever happens next; it can be read while it grows. All calls from one thread at a time.
-/// Every function throws FileError when the disk refuses.
+/// Appends frames and probe rows to a result file. What has been handed over to it is complete on disk,
+/// whatever happens next; it can be read while it grows. All calls from one thread at a time. Every function
+/// throws FileError when the disk refuses.
 class Recorder {
  public:
   struct Options {
     bool compress = false;  ///< shuffle + deflate 1: about a quarter less disk for much time
+    double patience = 0;    ///< s of run time that frames and probe rows may wait to be handed over together
     // Those that are expected: as long as there are no more, a kill at no moment can hide any.
     std::int64_t frames = 0, probe_rows = 0;
   };
@@ -35,15 +36,16 @@ class Recorder {
   Recorder(const std::filesystem::path& directory, ResultModel model, const Options& options,
            const Earlier& earlier);
   Recorder(const Recorder&) = delete;
-  ~Recorder();  ///< without finish(): keeps frames and probes, writes no summary, reports no errors
+  ~Recorder();  ///< without finish(): hands over all, writes no summary, reports no errors
 
-  /// Appends and flushes one frame; its arrays must have the model's sizes (else Error, internal).
+  /// Appends one frame; its arrays must have the model's sizes (else Error, internal). Hands over what waits,
+  /// unless all of it may go on waiting.
   void frame(const Frame& frame);
-  /// One row of the probe table at `time` (s): model.probes.size() values. Kept in memory until the next
-  /// frame.
+  /// One row of the probe table at `time` (s): model.probes.size() values.
   void probes(double time, std::span<const double> values);
-  /// Hands over the waiting probes and returns when the disk has all that was recorded, for a checkpoint that
-  /// counts on it.
+  /// Hands over what has waited for longer than `patience`: to be called now and then.
+  void catch_up();
+  /// Returns when the disk has all that was recorded, for a checkpoint that counts on it.
   void sync();
   /// Events and summary into the file, then XDMF and summary.json. Nothing may be recorded afterwards.
   void finish(const Summary& summary);
