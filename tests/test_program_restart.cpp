@@ -117,6 +117,69 @@ TEST_F(Restarted, RunTimesAddUp) {
 }
 
 // ----------------------------------------------------------------------------------------------------
+// Runs that end when the mouth has closed
+
+class EndsClosed : public Restarted {
+ protected:
+  // The open net closes at once, in a third of a second.
+  Words closing(const std::string& out, const Words& more) const {
+    Words words{"run", CINCH_SOURCE_DIR "/cases/capture.toml", "--quiet", "--out", out};
+    const Words changes{
+        "case.method=sliding",      "time.step_s=auto",    "time.safety=0.8", "thread.*.elements=8",
+        "net.main.stowed_factor=1", "closing.time_s=0.05", "time.end_s=0.5",  "output.probe_interval_s=0.01"};
+    for (const Words& list : {changes, more})
+      for (const std::string& change : list) words.insert(words.end(), {"--set", change});
+    return words;
+  }
+  double closed_at(const std::string& name) const {
+    const Json found = summary(name);
+    for (const Json& event : found.at("events"))
+      if (event.at("kind") == "mouth_closed") return event.at("time");
+    return -1;
+  }
+  double end_of(const std::string& name) const { return summary(name).at("simulated_seconds"); }
+};
+
+TEST_F(EndsClosed, AtTheSampleThatShowsItOrLater) {
+  ASSERT_EQ(run(closing("whole", {})), 0) << err();
+  EXPECT_NEAR(end_of("whole"), 0.5, 1e-5);
+  const double closed = closed_at("whole");
+  ASSERT_GT(closed, 0.1);
+  ASSERT_LT(closed, 0.4);
+  ASSERT_EQ(run(closing("r", {"time.end_when=mouth_closed"})), 0) << err();
+  EXPECT_EQ(closed_at("r"), closed);
+  EXPECT_EQ(end_of("r"), closed);
+  EXPECT_EQ(summary("r").at("status"), "done");
+  EXPECT_EQ(cinch::Result(path("r")).frame_times().back(), closed);
+  ASSERT_EQ(run(closing("later", {"time.end_when=mouth_closed", "time.end_delay_s=0.0137"})), 0) << err();
+  EXPECT_NEAR(end_of("later"), closed + 0.0137, 1e-5);
+  ASSERT_EQ(run(closing("early", {"time.end_when=mouth_closed", "time.end_s=0.1"})), 0) << err();
+  EXPECT_NEAR(end_of("early"), 0.1, 1e-5);
+}
+
+TEST_F(EndsClosed, AndGoesOnWhenAsked) {
+  ASSERT_EQ(run(closing("whole", {})), 0) << err();
+  ASSERT_EQ(run(closing("r", {"time.end_when=mouth_closed"})), 0) << err();
+  EXPECT_EQ(run({"run", "--restart", "r"}), 2);
+  EXPECT_TRUE(has(err(), "as its mouth has closed; to go on take --set time.end_when=never")) << err();
+  ASSERT_EQ(run({"run", "--restart", "r", "--set", "time.end_delay_s=0.02"}), 0) << err();
+  EXPECT_NEAR(end_of("r"), closed_at("whole") + 0.02, 1e-5);
+  ASSERT_EQ(run({"run", "--restart", "r", "--set", "time.end_when=never", "--threads", "2"}), 0) << err();
+  EXPECT_TRUE(same("whole", "r"));
+  EXPECT_EQ(last_energies("whole"), last_energies("r"));
+}
+
+TEST_F(EndsClosed, NeedsAMouth) {
+  EXPECT_EQ(run({"run", "tiny.toml", "--out", "r", "--set", "time.end_when=mouth_closed"}), 2);
+  EXPECT_TRUE(has(err(), "the case has no mouth that closes")) << err();
+  EXPECT_FALSE(fs::exists(path("r")));
+  ASSERT_EQ(run(begin("0.0004", "r")), 0) << err();
+  EXPECT_EQ(
+      run({"run", "--restart", "r", "--set", "time.end_s=0.001", "--set", "time.end_when=mouth_closed"}), 2);
+  EXPECT_TRUE(has(err(), "the case has no mouth that closes")) << err();
+}
+
+// ----------------------------------------------------------------------------------------------------
 // Killed at random moments
 
 TEST_F(Restarted, AfterTwoHundredKills) {

@@ -68,6 +68,12 @@ void print_steps(const Preparation& p) {
   }
 }
 
+void print_end(const Scene& scene) {
+  if (scene.time.end_when == EndWhen::never) return;
+  std::printf("end              %g s after the mouth has closed, at %g s at the latest\n",
+              scene.time.end_delay, scene.time.end);
+}
+
 void print_stages(const Preparation& p) {
   for (const Phase& phase : p.phases) {
     std::printf("stages           %s\n", phase.name.c_str());
@@ -212,6 +218,7 @@ int check(const CaseArguments& arguments, const CheckOptions& options) {
   print_counts(scene, p);
   print_joints(p.assembly);
   print_steps(p);
+  print_end(scene);
   print_stages(p);
   print_output(scene, p);
   const std::size_t start = memory_at_start(p);

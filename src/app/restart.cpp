@@ -15,9 +15,14 @@ namespace {
 namespace fs = std::filesystem;
 
 // What the motion so far does not hang on.
-constexpr std::array changeable{
-    "time.end_s",        "time.speed_limit_m_s",         "time.residual_limit",
-    "output.checkpoint", "output.checkpoint_interval_s", "output.checkpoint_run_time_s"};
+constexpr std::array changeable{"time.end_s",
+                                "time.end_when",
+                                "time.end_delay_s",
+                                "time.speed_limit_m_s",
+                                "time.residual_limit",
+                                "output.checkpoint",
+                                "output.checkpoint_interval_s",
+                                "output.checkpoint_run_time_s"};
 
 void require_changeable(const Override& change) {
   if (std::find(changeable.begin(), changeable.end(), change.key) != changeable.end()) return;
@@ -63,15 +68,17 @@ Scene Restart::scene(const std::vector<Override>& overrides) {
   return parse_case(saved.toml, saved.name + ".toml", overrides);
 }
 
-void Restart::require_later(std::int64_t end_step, const Timeline& timeline) {
-  std::int64_t step = 0;
-  checkpoint_.whole("state/step", step, 0, std::numeric_limits<std::int64_t>::max());
-  if (step < end_step) return;
-  char text[300];
-  std::snprintf(text, sizeof text,
-                "error: %s stands at %.9g s, and the case ends at %.9g s; to go on give a later end: --set "
-                "time.end_s=SECONDS",
-                checkpoint_.path().c_str(), timeline.time_of(step), timeline.time_of(end_step));
+void Restart::require_later(const Simulation& simulation) const {
+  const std::int64_t step = simulation.step(), end = simulation.end_step();
+  if (step < end) return;
+  const Timeline& timeline = simulation.preparation().timeline;
+  const bool early = end < simulation.preparation().end_step;
+  char text[400];
+  std::snprintf(text, sizeof text, "error: %s stands at %.9g s, and the case ends at %.9g s%s; to go on %s",
+                checkpoint_.path().c_str(), timeline.time_of(step), timeline.time_of(end),
+                early ? ", as its mouth has closed" : "",
+                early ? "take --set time.end_when=never, or a longer time.end_delay_s"
+                      : "give a later end: --set time.end_s=SECONDS");
   throw CaseError(text);
 }
 

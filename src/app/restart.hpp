@@ -27,8 +27,8 @@ class Restart {
 
   /// The case of the checkpoint with `overrides`; CaseError for one that the motion would have to know.
   Scene scene(const std::vector<Override>& overrides);
-  /// Throws CaseError where the checkpoint stands at or behind `end_step`.
-  void require_later(std::int64_t end_step, const Timeline& timeline);
+  /// Throws CaseError where the simulation that goes on from it stands at its end already.
+  void require_later(const Simulation& simulation) const;
   const std::filesystem::path& folder() const { return folder_; }
   Archive& archive() { return checkpoint_; }
   const Result& earlier() const { return earlier_; }

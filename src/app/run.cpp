@@ -83,11 +83,10 @@ class Run {
 
   Summary go() {
     std::string status = "done", message;
-    const std::int64_t end = simulation_.preparation().end_step;
     try {
       record();
-      while (simulation_.step() < end && stop_signal() == 0) {
-        advance(end);
+      while (simulation_.step() < simulation_.end_step() && stop_signal() == 0) {
+        advance(simulation_.end_step());
         record();
         keep_if_due();
         recorder_.catch_up();
@@ -113,9 +112,7 @@ class Run {
   }
   static Simulation simulate(const Scene& scene, int threads, Restart* from) {
     if (from == nullptr) return Simulation(scene, threads);
-    Preparation preparation = prepare(scene);
-    from->require_later(preparation.end_step, preparation.timeline);
-    return Simulation(scene, std::move(preparation), threads, from->archive());
+    return Simulation(scene, prepare(scene), threads, from->archive());
   }
   static Recorder record_in(const fs::path& folder, const Scene& scene, const Simulation& simulation,
                             const Account& account, const Restart* from) {
@@ -124,6 +121,7 @@ class Run {
                                     std::llround(scene.time.end / scene.output.frame_interval) + 2,
                                     std::llround(scene.time.end / probe_interval(scene)) + 2};
     if (from == nullptr) return Recorder(folder, simulation.result_model(), options);
+    from->require_later(simulation);
     return Recorder(
         folder, simulation.result_model(), options,
         {from->earlier(), static_cast<int>(account.frames), static_cast<std::size_t>(account.probe_rows)});

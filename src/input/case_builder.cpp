@@ -155,6 +155,7 @@ void CaseBuilder::read_run() {
   if (const SectionValues* time = read_single(time_section(), scene_.time)) {
     scene_.time.source.text = diagnostics_.where(time->place_of("step_s"));
     scene_.time.joint_steps_source.text = diagnostics_.where(time->place_of("joint_steps"));
+    scene_.time.end_when_source.text = diagnostics_.where(time->place_of("end_when"));
   }
   read_single(output_section(), scene_.output);
   read_single(gravity_section(), scene_);

@@ -40,6 +40,7 @@ void Simulation::restore(Archive& saved) {
   if (needs_node_start(scene_)) node_start_.resize(at(preparation_.assembly.node_count()));
   transfer(saved);
   if (has_mouth_) find_surfaces();
+  require_mouth();
   remember();
 }
 

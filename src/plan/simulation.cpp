@@ -173,11 +173,25 @@ void Simulation::start(const Nudge& nudge) {
   ring_start_ = look_.ring_centers();
   threadings_.begin(look_, stepper_->contacts());
   if (needs_node_start(scene_)) node_start_ = look_.positions();
-  // rings along one straight edge are no mouth: their hull has next to no area
+  find_mouth();
+  note_events(look_);
+}
+
+// Rings along one straight edge are no mouth: their hull has next to no area.
+void Simulation::find_mouth() {
   const double spread = mouth_spread(ring_start_);
   has_mouth_ = mouth_area(ring_start_) > 0.01 * spread * spread;
   if (has_mouth_) find_surfaces();
-  note_events(look_);
+  require_mouth();
+}
+
+// Where the run ends when it has closed.
+void Simulation::require_mouth() const {
+  if (scene_.time.end_when == EndWhen::never || (has_mouth_ && preparation_.closing_step >= 0)) return;
+  const std::string& place = scene_.time.end_when_source.text;
+  throw CaseError((place.empty() ? "" : place + ": ") +
+                  "error: time.end_when = \"mouth_closed\", but the case has no mouth that closes; it needs "
+                  "closing.time_s and three rings or more that do not lie along one line");
 }
 
 // Velocities by so many steps, by what the last look saw.
@@ -382,6 +396,13 @@ void Simulation::note_drawn_ends(const Look& now) {
     if (std::none_of(events_.begin(), events_.end(), same))
       events_.push_back({now.time(), "thread_end", name});
   }
+}
+
+std::int64_t Simulation::end_step() const {
+  if (scene_.time.end_when == EndWhen::never || !mouth_closed_) return preparation_.end_step;
+  const auto closed = std::find_if(events_.begin(), events_.end(),
+                                   [](const Event& event) { return event.kind == "mouth_closed"; });
+  return std::min(preparation_.end_step, preparation_.timeline.step_at(closed->time + scene_.time.end_delay));
 }
 
 void Simulation::note_events(const Look& now) {

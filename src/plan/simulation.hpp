@@ -64,6 +64,8 @@ class Simulation {
   std::string overlap_warning() const { return overlaps_.warning(preparation_); }
 
   std::int64_t step() const { return state_.step; }
+  /// The last one: the case's, or an earlier one as soon as what time.end_when names has come to pass.
+  std::int64_t end_step() const;
   double time() const { return preparation_.timeline.time_of(state_.step); }
   /// Its assembly knows all parts by name, but no longer how nodes and elements began.
   const Preparation& preparation() const { return preparation_; }
@@ -84,6 +86,8 @@ class Simulation {
   void transfer_seconds(Archive& archive);
   void find_start();
   void start(const Nudge& nudge);
+  void find_mouth();
+  void require_mouth() const;
   void find_surfaces();
   void enter_phase(std::size_t phase);
   void advance_with_threads_that_pay(std::int64_t stop);

@@ -187,16 +187,21 @@ struct Closing {
   SourceRef step_source;
 };
 
+enum class EndWhen { never, mouth_closed };
+
 struct TimeSpec {
-  double end = 0;                ///< s
-  double step = 0;               ///< s; 0: automatic
-  double safety = 0.4;           ///< automatic step over the stable bound
-  int joint_steps = 0;           ///< steps for which forces of sliding joints hold; 0: automatic
-  bool allow_unstable = false;   ///< accept a step above the bound
-  double speed_limit = 1e5;      ///< m/s, a faster node stops the run
-  double residual_limit = 0.05;  ///< of the energy ledger, relative; a greater one stops the run
-  SourceRef source;              ///< of time.step_s where given, else of [time]
-  SourceRef joint_steps_source;  ///< the same of time.joint_steps
+  double end = 0;                     ///< s
+  EndWhen end_when = EndWhen::never;  ///< what ends the run earlier
+  double end_delay = 0;               ///< s that it goes on after that
+  double step = 0;                    ///< s; 0: automatic
+  double safety = 0.4;                ///< automatic step over the stable bound
+  int joint_steps = 0;                ///< steps for which forces of sliding joints hold; 0: automatic
+  bool allow_unstable = false;        ///< accept a step above the bound
+  double speed_limit = 1e5;           ///< m/s, a faster node stops the run
+  double residual_limit = 0.05;       ///< of the energy ledger, relative; a greater one stops the run
+  SourceRef source;                   ///< of time.step_s where given, else of [time]
+  SourceRef joint_steps_source;       ///< the same of time.joint_steps
+  SourceRef end_when_source;          ///< the same of time.end_when
 };
 
 struct OutputSpec {
