@@ -247,7 +247,9 @@ struct Recorder::Impl {
   void take_place();
   void append(const Frame& frame);
   void append_probes(std::span<const double> at, std::span<const double> rows);
+  std::size_t waiting_bytes() const;
   bool may_wait(Clock::time_point now) const;
+  void write_rows();
   void hand_over();
   void write_events(const std::vector<Event>& events);
 };
@@ -309,7 +311,10 @@ void Recorder::Impl::append_probes(std::span<const double> at, std::span<const d
 }
 
 void Recorder::Impl::copy(const Earlier& earlier) {
-  for (int k = 0; k < earlier.frames; ++k) append(earlier.result.frame(k));
+  for (int k = 0; k < earlier.frames; ++k) {
+    append(earlier.result.frame(k));
+    if (waiting_bytes() >= kMostWaiting) write_rows();
+  }
   if (earlier.probe_rows > 0) {
     const std::vector<double> all = earlier.result.probe_times();
     append_probes(std::span(all).first(earlier.probe_rows), earlier.result.probe_rows(earlier.probe_rows));
@@ -328,20 +333,28 @@ void Recorder::Impl::take_place() {
   file.set_path(place);
 }
 
-// The first frame may not: who looks on wants to see something.
-bool Recorder::Impl::may_wait(Clock::time_point now) const {
-  const std::size_t rows = probe_values ? probe_values->waiting_bytes() : 0;
-  return last_hand_over != Clock::time_point() && now - last_hand_over < patience &&
-         std::max(net.position.waiting_bytes(), rows) < kMostWaiting;
+// Of the largest data sets.
+std::size_t Recorder::Impl::waiting_bytes() const {
+  return std::max(net.position.waiting_bytes(), probe_values ? probe_values->waiting_bytes() : 0);
 }
 
-// The counters rise only after everything they announce has been handed to the disk.
-void Recorder::Impl::hand_over() {
+// The first frame may not: who looks on wants to see something.
+bool Recorder::Impl::may_wait(Clock::time_point now) const {
+  return last_hand_over != Clock::time_point() && now - last_hand_over < patience &&
+         waiting_bytes() < kMostWaiting;
+}
+
+void Recorder::Impl::write_rows() {
   h5::hand_over(steps, net, step_numbers);
   for (Reals& term : energy) term.hand_over();
   if (rings) rings->hand_over();
   if (joints) joints->hand_over();
   if (probe_rows) h5::hand_over(*probe_times, *probe_values);
+}
+
+// The counters rise only after everything they announce has been handed to the disk.
+void Recorder::Impl::hand_over() {
+  write_rows();
   file.flush();
   frame_count.set(static_cast<std::int64_t>(times.size()));
   if (probe_rows) probe_rows->set(static_cast<std::int64_t>(probe_times->rows()));
