@@ -5,6 +5,7 @@
 
 #include <cmath>
 #include <cstdlib>
+#include <optional>
 
 #include "counters.hpp"
 #include "film.hpp"
@@ -94,17 +95,26 @@ void large_taut_net(benchmark::State& state, Stretch stretch, int threads) {
 }
 
 // Elements join when a case closes.
-double element_updates(const Preparation& p) {
-  if (p.phases.size() == 1) return static_cast<double>(p.end_step) * p.phases[0].model.elements;
-  return static_cast<double>(p.closing_step) * p.phases[0].model.elements +
-         static_cast<double>(p.end_step - p.closing_step) * p.phases[1].model.elements;
+double element_updates(const Preparation& p, std::int64_t steps) {
+  const std::int64_t first = p.phases.size() == 1 ? steps : std::min(p.closing_step, steps);
+  return static_cast<double>(first) * p.phases.front().model.elements +
+         static_cast<double>(steps - first) * p.phases.back().model.elements;
 }
 
-void whole(benchmark::State& state, const std::string& name, int threads) {
+using Changes = std::vector<Override>;
+
+// The settings of README for a capture within 1 %, up to its verdict.
+const Changes fast_capture{{"case.method", "sliding"},         {"time.step_s", "auto"},
+                           {"thread.*.elements", "12"},        {"closing.safety", "0.8"},
+                           {"time.joint_steps", "7"},          {"time.end_when", "mouth_closed"},
+                           {"output.probe_interval_s", "0.01"}};
+
+void whole(benchmark::State& state, const std::string& name, const Changes& changes, int threads) {
   const TemporaryFolder folder;
-  const std::string command = "'" CINCH_PROGRAM "' run '" + case_file(name) +
-                              "' --quiet --overwrite --threads " + std::to_string(threads) + " --out '" +
-                              folder.path().string() + "' > /dev/null";
+  std::string command = "'" CINCH_PROGRAM "' run '" + case_file(name) + "' --quiet --overwrite --threads " +
+                        std::to_string(threads) + " --out '" + folder.path().string() + "'";
+  for (const Override& change : changes) command += " --set '" + change.key + "=" + change.value + "'";
+  command += " > /dev/null";
   count_handover(state);
   const double begin = clock_seconds();
   for (auto _ : state)
@@ -112,13 +122,35 @@ void whole(benchmark::State& state, const std::string& name, int threads) {
   const double wall = (clock_seconds() - begin) / static_cast<double>(state.iterations());
   const Summary summary = read_summary(folder.path() / "summary.json");
   const auto runs = static_cast<double>(state.iterations());
-  count_updates(state, runs * element_updates(prepare(read_case(case_file(name)))));
+  count_updates(state, runs * element_updates(prepare(read_case(case_file(name), changes)), summary.steps));
   count_simulated(state, runs * summary.simulated_seconds);
   count_scene(state, summary.nodes, summary.elements, summary.threads);
   StageSeconds seconds{};
   for (std::size_t s = 0; s < stage_count; ++s) seconds[s] = summary.stages.at(s).seconds;
   count_shares(state, seconds, wall);
   tell_bits(state, summary.state_hash);
+}
+
+// The same in one process, without output: as a study of many captures steps them.
+void until_closed(benchmark::State& state, int threads) {
+  const Scene scene = read_case(case_file("capture"), fast_capture);
+  std::int64_t steps = 0;
+  std::optional<Simulation> simulation;
+  for (auto _ : state) {
+    simulation.emplace(scene, threads);
+    const Timeline& timeline = simulation->preparation().timeline;
+    for (int k = 1; simulation->step() < simulation->end_step(); ++k) {
+      simulation->advance_to(timeline.step_at(scene.output.probe_interval * k));
+      simulation->note_events(simulation->look());
+    }
+    steps += simulation->step();
+  }
+  const Model& model = simulation->model();
+  count_updates(state, element_updates(simulation->preparation(), steps / state.iterations()) *
+                           static_cast<double>(state.iterations()));
+  count_simulated(state, static_cast<double>(state.iterations()) * simulation->time());
+  count_scene(state, model.nodes, model.elements, simulation->threads());
+  tell_bits(state, state_hash(simulation->state()));
 }
 
 template <class Run, class... Arguments>
@@ -140,14 +172,16 @@ void add(const std::string& name, std::int64_t iterations, int threads, Run run,
           ring_sliding);
       add("edge_closure/closing", edge_closing.batches, threads, short_case, std::string("edge_closure"),
           edge_closing);
+      add("capture/sliding_until_closed", 10, threads, until_closed);
+      add("capture/sliding_until_closed/whole", 5, threads, whole, std::string("capture"), fast_capture);
     }
     add("large_capture/taut_net", large_closing.batches, threads, large_taut_net, large_closing);
     add("large_capture/closing/long", large_closing.batches, threads, large_closing_phase, large_closing);
     // where threads do not pay, a whole case of a million steps takes minutes
     const std::string longer = threads > 1 ? "/long" : "";
     for (const char* name : {"ring_pull", "edge_closure", "capture"})
-      add(name + ("/whole" + longer), 1, threads, whole, std::string(name));
-    add("large_capture/whole/long", 1, threads, whole, std::string("large_capture"));
+      add(name + ("/whole" + longer), 1, threads, whole, std::string(name), Changes{});
+    add("large_capture/whole/long", 1, threads, whole, std::string("large_capture"), Changes{});
   }
   return true;
 }();
