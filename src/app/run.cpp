@@ -13,11 +13,12 @@
 #include "app/commands.hpp"
 #include "app/progress.hpp"
 #include "app/restart.hpp"
+#include "app/result_folder.hpp"
 #include "app/schedule.hpp"
 #include "app/signals.hpp"
 #include "base/error.hpp"
+#include "output/folder_lock.hpp"
 #include "output/recorder.hpp"
-#include "output/result_layout.hpp"
 #include "output/result_reader.hpp"
 #include "plan/case_warnings.hpp"
 #include "plan/simulation.hpp"
@@ -38,28 +39,13 @@ std::string host_name() {
   return name;
 }
 
-// Never writes into a result that is already there, unless asked to.
-fs::path result_folder(const RunArguments& arguments, const std::string& case_name) {
-  const auto taken = [](const fs::path& folder) { return fs::exists(folder / layout::kResultFile); };
-  if (!arguments.out.empty()) {
-    if (taken(arguments.out) && !arguments.overwrite)
-      throw FileError("error: " + arguments.out.string() +
-                      " holds a result already; give another --out, or --overwrite to replace it");
-    return arguments.out;
-  }
-  const fs::path base = fs::path("results") / case_name;
-  if (arguments.overwrite || !taken(base)) return base;
-  for (int k = 2;; ++k)
-    if (const fs::path next = base.string() + "-" + std::to_string(k); !taken(next)) return next;
-}
-
 // One run: the loop over what is due, and the clocks.
 class Run {
  public:
   // `from`: what it goes on from, or null.
-  Run(const Scene& scene, int threads, fs::path folder, bool quiet, Restart* from)
+  Run(const Scene& scene, int threads, ResultFolder& folder, bool quiet, Restart* from)
       : scene_(scene),
-        folder_(std::move(folder)),
+        folder_(folder),
         begin_(now()),
         account_(account_of(from)),
         before_(account_.run_time),
@@ -114,16 +100,17 @@ class Run {
     if (from == nullptr) return Simulation(scene, threads);
     return Simulation(scene, prepare(scene), threads, from->archive());
   }
-  static Recorder record_in(const fs::path& folder, const Scene& scene, const Simulation& simulation,
+  static Recorder record_in(ResultFolder& folder, const Scene& scene, const Simulation& simulation,
                             const Account& account, const Restart* from) {
     constexpr double patience = 0.25;  // s
     const Recorder::Options options{scene.output.compress, patience,
                                     std::llround(scene.time.end / scene.output.frame_interval) + 2,
                                     std::llround(scene.time.end / probe_interval(scene)) + 2};
-    if (from == nullptr) return Recorder(folder, simulation.result_model(), options);
-    from->require_later(simulation);
+    if (from != nullptr) from->require_later(simulation);
+    folder.make();
+    if (from == nullptr) return Recorder(folder.path(), simulation.result_model(), options);
     return Recorder(
-        folder, simulation.result_model(), options,
+        folder.path(), simulation.result_model(), options,
         {from->earlier(), static_cast<int>(account.frames), static_cast<std::size_t>(account.probe_rows)});
   }
   static double probe_interval(const Scene& scene) {
@@ -180,7 +167,7 @@ class Run {
     const double t0 = now();
     recorder_.sync();
     account_.run_time = before_ + now() - begin_;
-    write_checkpoint(folder_, {scene_.name, scene_.resolved_toml}, account_, simulation_);
+    write_checkpoint(folder_.path(), {scene_.name, scene_.resolved_toml}, account_, simulation_);
     last_checkpoint_ = now();
     account_.writing += last_checkpoint_ - t0;
   }
@@ -215,7 +202,7 @@ class Run {
   }
 
   const Scene& scene_;
-  fs::path folder_;
+  ResultFolder& folder_;
   double begin_;
   Account account_;
   double before_;  // s: run time of what it goes on from
@@ -234,25 +221,57 @@ int exit_code(const Summary& summary) {
   return static_cast<int>(ExitCode::done);
 }
 
+// Where what a run goes on from lies.
+fs::path source_folder(const fs::path& restart) {
+  std::error_code error;
+  if (fs::is_directory(restart, error)) return restart;
+  return restart.has_parent_path() ? restart.parent_path() : fs::path(".");
+}
+
+bool goes_on_in_place(const RunArguments& arguments) {
+  std::error_code error;
+  return !arguments.restart.empty() &&
+         (arguments.out.empty() || fs::equivalent(arguments.out, source_folder(arguments.restart), error));
+}
+
+// Holds still what a run goes on from: another run may be at work there.
+void lock_source(const RunArguments& arguments, std::optional<FolderLock>& lock) {
+  const fs::path folder = source_folder(arguments.restart);
+  std::error_code error;
+  if (!fs::is_directory(folder, error)) return;  // told by who opens it
+  lock.emplace(folder);
+  goes_on_in_place(arguments) ? lock->write() : lock->read();
+}
+
+ResultFolder folder_for(const RunArguments& arguments, const Scene& scene, const Restart* from) {
+  if (!goes_on_in_place(arguments)) return ResultFolder(arguments, scene.name);
+  if (!arguments.out.empty()) require_free(arguments.out, arguments.overwrite);
+  return ResultFolder(from->folder());
+}
+
 }  // namespace
 
 int run(const RunArguments& arguments) {
+  std::optional<FolderLock> source;
   std::optional<Restart> from;
-  if (!arguments.restart.empty()) from.emplace(arguments.restart);
+  if (!arguments.restart.empty()) {
+    lock_source(arguments, source);
+    from.emplace(arguments.restart);
+  }
   const Scene scene = from ? from->scene(arguments.scene.overrides)
                            : read_case(arguments.scene.file, arguments.scene.overrides);
-  const fs::path folder =
-      from && arguments.out.empty() ? from->folder() : result_folder(arguments, scene.name);
+  ResultFolder folder = folder_for(arguments, scene, from ? &*from : nullptr);
   const std::string doubt = from && !arguments.quiet ? from->doubt() : "";
   if (!doubt.empty()) std::cerr << "warning: " << doubt << "\n";
   watch_signals();
   Run one(scene, arguments.scene.threads, folder, arguments.quiet, from ? &*from : nullptr);
+  if (!goes_on_in_place(arguments)) source.reset();  // copied
   if (!from) one.warn();
   const Summary summary = one.go();
   if (!summary.message.empty()) std::cerr << summary.message << "\n";
   for (const std::string& warning : summary.warnings) std::cerr << "warning: " << warning << "\n";
-  if (!arguments.quiet) print_verdict(Result(folder), std::cout);
-  std::cout << "results: " << folder.string() << "\n";
+  if (!arguments.quiet) print_verdict(Result(folder.path()), std::cout);
+  std::cout << "results: " << folder.path().string() << "\n";
   return exit_code(summary);
 }
 

@@ -1,6 +1,7 @@
 #include "output/descriptor.hpp"
 
 #include <fcntl.h>
+#include <sys/file.h>
 #include <unistd.h>
 
 #include <cerrno>
@@ -31,6 +32,13 @@ void Descriptor::write_at(std::size_t place, std::span<const std::uint8_t> from)
 void Descriptor::sync() const {
   if (fsync(number_) != 0) fail("write it");
 }
+
+Locked Descriptor::lock(Lock kind) const {
+  if (flock(number_, (kind == Lock::alone ? LOCK_EX : LOCK_SH) | LOCK_NB) == 0) return Locked::done;
+  return errno == EWOULDBLOCK ? Locked::refused : Locked::impossible;
+}
+
+void Descriptor::unlock() const { flock(number_, LOCK_UN); }
 
 void Descriptor::fail(const char* verb) const {
   throw FileError("error: " + path_.string() + ": cannot " + verb + ": " + std::strerror(errno));

@@ -5,6 +5,8 @@
 #include <cstdio>
 #include <ostream>
 
+#include "output/folder_lock.hpp"
+
 namespace cinch {
 namespace {
 
@@ -116,6 +118,19 @@ void print_verdict(const Summary& summary, std::ostream& out) {
   line(out, "state hash", "0x%016llx", static_cast<unsigned long long>(summary.state_hash));
 }
 
+const char* why_unfinished(const Result& result) {
+  const std::filesystem::path folder = result.path().parent_path();
+  switch (writer_of(folder.empty() ? "." : folder)) {
+    case Writer::there:
+      return "not finished: still running";
+    case Writer::gone:
+      return "not finished: killed, as no run on this machine writes to it";
+    case Writer::unknown:
+      break;
+  }
+  return "not finished: still running, or killed";
+}
+
 }  // namespace
 
 void print_info(const Result& result, std::ostream& out) {
@@ -126,7 +141,7 @@ void print_info(const Result& result, std::ostream& out) {
   print_frames(result, out);
   print_parts(model, out);
   if (!result.summary()) {
-    line(out, "status", "not finished: still running, or killed");
+    line(out, "status", why_unfinished(result));
     return;
   }
   print_stages(*result.summary(), out);

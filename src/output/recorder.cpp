@@ -8,6 +8,7 @@
 
 #include "base/error.hpp"
 #include "output/descriptor.hpp"
+#include "output/folder_lock.hpp"
 #include "output/hdf5_file.hpp"
 #include "output/model_io.hpp"
 #include "output/report_file.hpp"
@@ -187,9 +188,7 @@ void remove_old_run(const std::filesystem::path& directory) {
 
 /// `draft`: beside the place of the result, which stays for the time being.
 h5::File create_file(const std::filesystem::path& directory, bool draft) {
-  std::error_code error;
-  std::filesystem::create_directories(directory, error);
-  if (error) throw FileError(directory.string() + ": cannot create the directory: " + error.message());
+  make_folder(directory);
   if (draft) return h5::File::create(directory / (std::string(kResultFile) + ".tmp"));
   remove_old_run(directory);
   return h5::File::create(directory / kResultFile);
