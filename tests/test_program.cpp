@@ -1,4 +1,5 @@
 // The program itself, driven as a user drives it: exit codes, files, messages, signals.
+#include <sched.h>
 #include <sys/stat.h>
 
 #include <chrono>
@@ -11,6 +12,26 @@
 namespace {
 
 using namespace cinch::test;
+
+// What is started meanwhile may use one processor.
+class OneProcessor {
+ public:
+  OneProcessor() {
+    CPU_ZERO(&before_);
+    EXPECT_EQ(sched_getaffinity(0, sizeof before_, &before_), 0);
+    int first = 0;
+    while (!CPU_ISSET(first, &before_)) ++first;
+    cpu_set_t one;
+    CPU_ZERO(&one);
+    CPU_SET(first, &one);
+    EXPECT_EQ(sched_setaffinity(0, sizeof one, &one), 0);
+  }
+  ~OneProcessor() { sched_setaffinity(0, sizeof before_, &before_); }
+  OneProcessor(const OneProcessor&) = delete;
+
+ private:
+  cpu_set_t before_;
+};
 
 // ----------------------------------------------------------------------------------------------------
 // A run that ends well
@@ -293,6 +314,29 @@ TEST_F(Program, UsageErrors) {
   EXPECT_EQ(run({"run", "missing.toml", "--out", "r"}), 2);
   EXPECT_TRUE(has(err(), "missing.toml")) << err();
   EXPECT_FALSE(fs::exists(path("r")));
+}
+
+// They would wait for each other; how many a machine has does not matter here.
+TEST_F(Program, MoreThreadsThanProcessorsAreWarnedOf) {
+  const OneProcessor one;
+  const Words words{"tiny.toml", "--set", "time.end_s=1e-5"};
+  const auto with_words = [&](Words command, const Words& more) {
+    command.insert(command.end(), words.begin(), words.end());
+    command.insert(command.end(), more.begin(), more.end());
+    return command;
+  };
+  const std::string told =
+      "warning: --threads 2: this process may use 1 processor; more threads than that wait for each other\n";
+  EXPECT_EQ(run(with_words({"run"}, {"--quiet", "--threads", "2"})), 0);
+  EXPECT_EQ(err(), told);
+  EXPECT_EQ(run(with_words({"run"}, {"--quiet", "--overwrite"}), "export CINCH_THREADS=2; "), 0);
+  EXPECT_EQ(err(), told);
+  EXPECT_EQ(run(with_words({"check"}, {"--threads", "2"})), 0);
+  EXPECT_EQ(err(), told);
+  for (const char* threads : {"--threads=1", "--set=output.checkpoint=false"}) {
+    EXPECT_EQ(run(with_words({"run"}, {"--quiet", "--overwrite", threads})), 0);
+    EXPECT_EQ(err(), "") << threads;
+  }
 }
 
 TEST_F(Program, AnUnknownInstructionSetIsRefused) {

@@ -6,6 +6,7 @@
 #include "app/commands.hpp"
 #include "app/error_table.hpp"
 #include "app/progress.hpp"
+#include "app/resources.hpp"
 #include "base/error.hpp"
 #include "input/nearest_key.hpp"
 #include "plan/case_warnings.hpp"
@@ -213,6 +214,7 @@ int check(const CaseArguments& arguments, const CheckOptions& options) {
     std::cout << scene.resolved_toml;
     return 0;
   }
+  warn_of_threads(arguments.threads);
   Preparation p = prepare(scene);
   std::vector<std::string> warnings = case_warnings(scene, p);
   print_counts(scene, p);

@@ -12,6 +12,7 @@
 
 #include "app/commands.hpp"
 #include "app/progress.hpp"
+#include "app/resources.hpp"
 #include "app/restart.hpp"
 #include "app/result_folder.hpp"
 #include "app/schedule.hpp"
@@ -263,6 +264,7 @@ int run(const RunArguments& arguments) {
   ResultFolder folder = folder_for(arguments, scene, from ? &*from : nullptr);
   const std::string doubt = from && !arguments.quiet ? from->doubt() : "";
   if (!doubt.empty()) std::cerr << "warning: " << doubt << "\n";
+  warn_of_threads(arguments.scene.threads);
   watch_signals();
   Run one(scene, arguments.scene.threads, folder, arguments.quiet, from ? &*from : nullptr);
   if (!goes_on_in_place(arguments)) source.reset();  // copied
