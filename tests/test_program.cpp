@@ -364,6 +364,23 @@ TEST_F(Program, AFolderThatCannotBeWritten) {
   EXPECT_EQ(run({"run", "tiny.toml", "--out", "closed/r"}), 4);
 }
 
+TEST_F(Program, ASceneLargerThanTheMemory) {
+  const std::string little = "ulimit -v 700000; ", less = "ulimit -v 100000; ";
+  if (run({"--version"}, less) != 0) GTEST_SKIP() << "sanitizers take terabytes of addresses";
+  for (const Words& command : {Words{"check"}, Words{"run", "--out", "r"}}) {
+    Words words = command;
+    words.insert(words.end(), {"tiny.toml", "--set", "thread.main.elements=5000000", "--threads", "1"});
+    EXPECT_EQ(run(words, little), 4);
+    EXPECT_EQ(err(), "error: not enough memory for this scene (5000002 nodes, 5000000 elements)\n");
+    EXPECT_FALSE(fs::exists(path("r")));
+  }
+  std::string points;  // the scene is not known yet
+  for (int k = 0; k < 200000; ++k) points += "[0,0,0],";
+  write("long.toml", with("[[0, -0.1, 0], [0, 0.4, 0]]", "[" + points + "[1,0,0]]"));
+  EXPECT_EQ(run({"check", "long.toml"}, less), 4);
+  EXPECT_EQ(err(), "error: not enough memory\n");
+}
+
 TEST_F(Program, AResultIsNotReplacedUnasked) {
   ASSERT_EQ(run({"run", "tiny.toml", "--out", "r", "--quiet"}), 0);
   const std::string before = text_of(path("r/run.vtkhdf")) + text_of(path("r/summary.json"));

@@ -206,15 +206,7 @@ void check_error(const Scene& scene, const ErrorRuns& runs) {
       estimate_error(scene, runs, [](const std::string& what) { std::cerr << "running " << what << "\n"; }));
 }
 
-}  // namespace
-
-int check(const CaseArguments& arguments, const CheckOptions& options) {
-  const Scene scene = read_case(arguments.file, arguments.overrides);
-  if (options.resolved) {
-    std::cout << scene.resolved_toml;
-    return 0;
-  }
-  warn_of_threads(arguments.threads);
+int check_scene(const Scene& scene, int threads, const CheckOptions& options) {
   Preparation p = prepare(scene);
   std::vector<std::string> warnings = case_warnings(scene, p);
   print_counts(scene, p);
@@ -225,15 +217,27 @@ int check(const CaseArguments& arguments, const CheckOptions& options) {
   print_output(scene, p);
   const std::size_t start = memory_at_start(p);
   const std::size_t frame = memory_of_frame(p.whole().nodes, p.whole().elements);
-  const Trial trial = try_out(scene, arguments.threads, std::move(p));
+  const Trial trial = try_out(scene, threads, std::move(p));
   if (trial.threads > 0) print_memory(start, frame, trial.memory);
   print_expected_time(scene, trial);
   if (trial.problem.empty() && !trial.overlap.empty()) warnings.push_back("warning: " + trial.overlap);
   std::fflush(stdout);
   for (const std::string& warning : warnings) std::cerr << warning << "\n";
   const int code = print_verdict(trial);
-  if (options.error && code == 0) check_error(scene, {options.runs, arguments.threads});
+  if (options.error && code == 0) check_error(scene, {options.runs, threads});
   return code;
+}
+
+}  // namespace
+
+int check(const CaseArguments& arguments, const CheckOptions& options) {
+  const Scene scene = read_case(arguments.file, arguments.overrides);
+  if (options.resolved) {
+    std::cout << scene.resolved_toml;
+    return 0;
+  }
+  warn_of_threads(arguments.threads);
+  return with_memory_for(scene, [&] { return check_scene(scene, arguments.threads, options); });
 }
 
 }  // namespace cinch::app

@@ -3,9 +3,11 @@
 #include <cerrno>
 #include <cstdio>
 #include <iostream>
+#include <new>
 #include <system_error>
 
 #include "app/commands.hpp"
+#include "app/resources.hpp"
 #include "base/error.hpp"
 #include "base/version.hpp"
 #include "input/nearest_key.hpp"
@@ -143,6 +145,7 @@ int parse_and_dispatch(int argc, char** argv) {
   CLI::App app{"Cinch: dynamics of tether-nets that capture space debris"};
   Options options;
   const Commands commands = define(app, options);
+  cinch::app::watch_memory_of_threads();
   try {
     app.parse(argc, argv);
     if (const std::string word = switch_with_value(app, argc, argv); !word.empty())
@@ -158,6 +161,9 @@ int parse_and_dispatch(int argc, char** argv) {
   } catch (const cinch::Error& error) {
     print_error(error.what());
     return static_cast<int>(error.code);
+  } catch (const std::bad_alloc&) {
+    print_error("not enough memory");
+    return static_cast<int>(cinch::ExitCode::input_output);
   } catch (const std::exception& error) {
     std::cerr << "internal error: " << error.what() << "\n";
     return static_cast<int>(cinch::ExitCode::internal);

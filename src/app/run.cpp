@@ -266,10 +266,12 @@ int run(const RunArguments& arguments) {
   if (!doubt.empty()) std::cerr << "warning: " << doubt << "\n";
   warn_of_threads(arguments.scene.threads);
   watch_signals();
-  Run one(scene, arguments.scene.threads, folder, arguments.quiet, from ? &*from : nullptr);
-  if (!goes_on_in_place(arguments)) source.reset();  // copied
-  if (!from) one.warn();
-  const Summary summary = one.go();
+  const Summary summary = with_memory_for(scene, [&] {
+    Run one(scene, arguments.scene.threads, folder, arguments.quiet, from ? &*from : nullptr);
+    if (!goes_on_in_place(arguments)) source.reset();  // copied
+    if (!from) one.warn();
+    return one.go();
+  });
   if (!summary.message.empty()) std::cerr << summary.message << "\n";
   for (const std::string& warning : summary.warnings) std::cerr << "warning: " << warning << "\n";
   if (!arguments.quiet) print_verdict(Result(folder.path()), std::cout);
