@@ -581,8 +581,12 @@ TEST(CaseReader, ElementsAreWholeAndBounded) {
   for (const char* bad : {"0", "-5", "100000001", "9223372036854775807", "10.0", "\"10\"", "true"}) {
     SCOPED_TRACE(bad);
     expect_error(elements(bad), {"t.toml:11:12: error: thread.main.elements: found ",
-                                 "allowed: whole number, >= 1 and <= 1e+08"});
+                                 "allowed: whole number, >= 1 and <= 100000000"});
   }
+  for (const char* point : {"10.0", "1e8"})
+    expect_error(elements(point), {"(number), ", "<= 100000000, written without point and exponent"});
+  for (const char* other : {"10.5", "0", "inf"})
+    EXPECT_EQ(error_of(elements(other)).find("without point"), std::string::npos) << other;
   EXPECT_EQ(error_of(elements("100000000")), "");
 }
 

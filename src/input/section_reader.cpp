@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <set>
 
 #include "input/nearest_key.hpp"
@@ -118,10 +119,23 @@ bool accept(const KeyInfo& key, const TomlValue& found, Value& value, Place& pla
   return false;
 }
 
+// As it is to be written: the bounds of whole numbers in digits.
+std::string bound_text(const KeyInfo& key, double bound) {
+  const bool whole = key.type == KeyType::whole || key.type == KeyType::wholes;
+  return whole ? std::to_string(static_cast<std::int64_t>(bound)) : toml_text(bound);
+}
+
 std::string range_text(const KeyInfo& key) {
   const Range& range = key.range;
   return (key.unit.empty() ? "" : " in " + key.unit) + std::string(range.low_included ? ", >= " : ", > ") +
-         toml_text(range.low) + " and <= " + toml_text(range.high);
+         bound_text(key, range.low) + " and <= " + bound_text(key, range.high);
+}
+
+// Whether a number is whole but written like 10.0 or 1e8, which TOML does not take for one.
+bool whole_with_point(const TomlValue& found) {
+  return (found.type == Type::number && std::isfinite(found.number) &&
+          std::trunc(found.number) == found.number) ||
+         std::any_of(found.items.begin(), found.items.end(), whole_with_point);
 }
 
 std::string quoted_words(const KeyInfo& key, const char* last) {
@@ -270,6 +284,8 @@ bool check_value(const KeyInfo& key, const TomlValue& found, Value& value, std::
   problem = "found " + describe(found);
   if (found.type == Type::string) problem += did_you_mean(found.text, key.words);
   problem += ", allowed: " + allowed_text(key);
+  if ((key.type == KeyType::whole || key.type == KeyType::wholes) && whole_with_point(found))
+    problem += ", written without point and exponent";
   return false;
 }
 
