@@ -314,6 +314,21 @@ TEST(HostileCases, ErrorsShowNoControlCharacters) {
     for (const char c : text) EXPECT_TRUE(c == '\n' || (static_cast<unsigned char>(c) >= 0x20 && c != 0x7f));
 }
 
+// Of what is quoted, too: bytes beyond ASCII that are no text, and control characters there.
+TEST(HostileCases, QuotedLinesShowTextAlone) {
+  const auto quoted = [](const std::string& bytes) {
+    const std::string error = error_of("x = 1 # <" + bytes + ">\n" + minimal);
+    const std::size_t begin = error.find('<');
+    return error.substr(begin, error.find('>') - begin + 1);
+  };
+  for (const char* text : {"\xc3\xa4", "\xe2\x82\xac", "\xf0\x9f\x90\x9f", "\xc2\xa0"})
+    EXPECT_EQ(quoted(text), "<" + std::string(text) + ">");
+  for (const char* two : {"\xff\xfe", "\xc2\x9b", "\xe2\x82", "\xc0\xaf", "\x9b\x80", "\x1b\x9d"})
+    EXPECT_EQ(quoted(two), "<?\?>") << two;
+  EXPECT_EQ(quoted("\xc3("), "<?(>");
+  EXPECT_EQ(quoted("\xe0\x82\x9b"), "<?\?\?>");  // U+009B in three bytes
+}
+
 TEST(HostileCases, LineEndsAndByteOrderMark) {
   std::string crlf;
   for (const char c : minimal) crlf += c == '\n' ? std::string("\r\n") : std::string(1, c);

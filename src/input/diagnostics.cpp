@@ -18,10 +18,28 @@ auto order_of(Place place) {
   return std::tuple(place.override_number == 0, place.override_number, place.line, place.column);
 }
 
+// Bytes of the character that begins at `at`, or 0 where there is none that may be shown. Of UTF-8 beyond
+// ASCII what moves a terminal's cursor, too, is left out: U+0080 to U+009F.
+std::size_t bytes_of_character(std::string_view text, std::size_t at) {
+  const auto byte = [&](std::size_t k) { return static_cast<unsigned char>(text[k]); };
+  const unsigned first = byte(at);
+  if (first < 0x80) return first >= 0x20 && first != 0x7F ? 1 : 0;
+  const std::size_t bytes = first >= 0xF0 ? 4 : first >= 0xE0 ? 3 : 2;
+  if (first < 0xC2 || first > 0xF4 || at + bytes > text.size()) return 0;
+  for (std::size_t k = at + 1; k < at + bytes; ++k)
+    if ((byte(k) & 0xC0) != 0x80) return 0;
+  // below: U+0080 to U+009F, and longer forms of what fits into fewer bytes
+  const unsigned least = first == 0xC2 || first == 0xE0 ? 0xA0 : first == 0xF0 ? 0x90 : 0x80;
+  return byte(at + 1) >= least ? bytes : 0;
+}
+
 // What a file says may hold anything: no line breaks, nothing that moves a terminal's cursor.
 std::string printable(std::string text) {
-  for (char& c : text)
-    if (static_cast<unsigned char>(c) < 0x20 || c == 0x7F) c = c == '\t' ? ' ' : '?';
+  for (std::size_t at = 0; at < text.size();) {
+    const std::size_t bytes = bytes_of_character(text, at);
+    if (bytes == 0) text[at] = text[at] == '\t' ? ' ' : '?';
+    at += std::max<std::size_t>(bytes, 1);
+  }
   return text;
 }
 
