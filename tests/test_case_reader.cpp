@@ -671,6 +671,7 @@ TEST(CaseReader, UnknownReferences) {
   expect_error(minimal + "[probe.p]\nquantity = \"energy\"\nof = \"thread.main\"\n",
                {"'probe.p.of' has no meaning"});
   expect_error(minimal + "[probe.p]\nquantity = \"mouth_area\"\n", {"in a case without rings"});
+  expect_error(minimal + "[ring]\n[probe.p]\nquantity = \"mouth_area\"\n", {"in a case without rings"});
   expect_error(
       minimal +
           "[target.b]\ncenter_m = [0, 0, 0]\nradius_m = 1\nyoungs_modulus_Pa = 1e9\ntouches = [\"main\"]\n",
@@ -683,6 +684,17 @@ TEST(CaseReader, AFaultyPartIsNoSecondError) {
       "[net.main]\nmaterial = \"aramid\"\ndiameter_m = 0.002\nsize_m = [1, 1]\nmesh_m = -1\n" + mechanism +
       "[rings.r]\nnet = \"main\"\n" + ring_body + "[probe.p]\nquantity = \"force\"\nof = \"ring.r1\"\n");
   EXPECT_EQ(count_errors(error), 1u) << error;
+}
+
+// A net whose meshes do not fill it, and a ring that lacks a key: the case has rings for all that.
+TEST(CaseReader, AFaultyRingIsNoSecondError) {
+  const std::string mouth = "[probe.p]\nquantity = \"mouth_area\"\n";
+  const std::string row = head + aramid + net + "[rings.r]\nnet = \"main\"\n" + ring_body + mouth;
+  const std::string uneven = error_of(row, {{"net.main.mesh_m", "0.3"}});
+  EXPECT_EQ(count_errors(uneven), 1u) << uneven;
+  EXPECT_NE(uneven.find("net.main.mesh_m"), std::string::npos) << uneven;
+  const std::string lacking = error_of(minimal + "[ring.r]\non = \"thread.main\"\n" + ring_body + mouth);
+  EXPECT_EQ(count_errors(lacking), 1u) << lacking;
 }
 
 TEST(CaseReader, AFaultyEndIsNoSecondError) {

@@ -282,7 +282,9 @@ void CaseBuilder::read_probe(const TomlMember& member) {
   if (forms == 0 && !probe.of.empty())
     fail(values.place_of("of"),
          "'" + values.path + ".of' has no meaning: " + quantity + " is of the whole scene");
-  if (forms == 0 && probe.quantity != ProbeQuantity::energy && scene_.rings.empty())
+  // rings may be missing because of another mistake
+  const bool told = !diagnostics_.empty() && (document_.find("ring") || document_.find("rings"));
+  if (forms == 0 && probe.quantity != ProbeQuantity::energy && scene_.rings.empty() && !told)
     fail(values.place_of("quantity"),
          values.path + ".quantity: found \"" + quantity + "\" in a case without rings");
   if (forms != 0 && probe.of.empty())
