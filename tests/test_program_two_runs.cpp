@@ -105,7 +105,9 @@ TEST_F(TwoRuns, AKilledRunHoldsNothing) {
   kill(child, SIGKILL);
   wait_for(child);
   ASSERT_EQ(run({"info", "r"}), 0) << err();
-  EXPECT_TRUE(has(out(), "status          not finished: killed, as no run on this machine writes to it\n"))
+  EXPECT_TRUE(
+      has(out(),
+          "status          not finished: stopped before its end, as no run on this machine writes to it\n"))
       << out();
   EXPECT_EQ(run(tiny_in("r", {"--overwrite"})), 0) << err();
   EXPECT_EQ(cinch::writer_of(path("nowhere")), cinch::Writer::unknown);

@@ -124,7 +124,7 @@ const char* why_unfinished(const Result& result) {
     case Writer::there:
       return "not finished: still running";
     case Writer::gone:
-      return "not finished: killed, as no run on this machine writes to it";
+      return "not finished: stopped before its end, as no run on this machine writes to it";
     case Writer::unknown:
       break;
   }
