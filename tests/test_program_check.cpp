@@ -198,6 +198,21 @@ TEST_F(Doubtful, AnAutomaticJointThatNoThreadPassesIsToldOf) {
   EXPECT_TRUE(has(out(), "joints           contact: r1\n")) << out();
 }
 
+TEST_F(Doubtful, AThreadTooThickForItsRingIsToldOf) {
+  std::string text = with("joint = \"contact\"\n", "");
+  text.replace(text.find("0.0069"), 6, "0.0000");  // the thread goes through it
+  text.replace(text.find("diameter_m = 0.002"), 18, "diameter_m = 0.050");
+  write("thick.toml", text);
+  EXPECT_NE(run({"run", "thick.toml", "--out", "r", "--quiet"}), 0);
+  const std::string told =
+      "thick.toml:21:7: warning: thread.main (diameter 0.05 m) does not fit the opening (0.016 m) of ring "
+      "'r1'; its joint = \"auto\" becomes contact";
+  EXPECT_TRUE(err().starts_with(told)) << err();
+  EXPECT_NE(run({"check", "thick.toml"}), 0);
+  EXPECT_TRUE(has(err(), told)) << err();
+  EXPECT_TRUE(has(out(), "joints           contact, as the thread is too thick: r1\n")) << out();
+}
+
 TEST_F(Doubtful, ABodyThatCanFallHasNoEquilibrium) {
   const std::string falls =
       with("end = { support = \"fixed\" }", "[gravity]\nacceleration_m_s2 = [0, 0, -9.81]") +

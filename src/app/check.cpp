@@ -36,9 +36,11 @@ void print_counts(const Scene& scene, const Preparation& p) {
 
 // Which rings slide on threads, and which feel contact with their wire: an automatic joint chooses unasked.
 void print_joints(const Assembly& assembly) {
-  std::vector<std::string> sliding, contact, missed;
-  for (const AssemblyRing& ring : assembly.rings)
-    (ring.missed ? missed : ring.threadings.empty() ? contact : sliding).push_back(ring.name);
+  std::vector<std::string> sliding, contact, missed, thick;
+  for (const AssemblyRing& ring : assembly.rings) {
+    auto& without = !ring.missed ? contact : ring.missed->thickness > 0 ? thick : missed;
+    (ring.threadings.empty() ? without : sliding).push_back(ring.name);
+  }
   const char* label = "joints";
   const auto print = [&](const char* kind, const std::vector<std::string>& names) {
     if (names.empty()) return;
@@ -48,6 +50,7 @@ void print_joints(const Assembly& assembly) {
   print("sliding", sliding);
   print("contact", contact);
   print("contact, as no thread passes through", missed);
+  print("contact, as the thread is too thick", thick);
 }
 
 void print_steps(const Preparation& p) {

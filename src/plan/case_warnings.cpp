@@ -18,6 +18,19 @@ std::string words(const char* format, double a, double b = 0) {
   return text;
 }
 
+std::string words_of_miss(const Assembly& assembly, const AssemblyRing& ring, const std::string& name) {
+  const Miss& miss = *ring.missed;
+  if (miss.thickness > 0)
+    return assembly.parts[at(miss.part)].reference() +
+           words(" (diameter %.6g m) does not fit the opening (%.6g m) of ", miss.thickness,
+                 2 * (ring.radius - ring.wire_radius)) +
+           name;
+  return "no thread passes through " + name +
+         (miss.part < 0 ? std::string(": none crosses its plane")
+                        : ": the nearest, " + assembly.parts[at(miss.part)].reference() +
+                              words(", lies %.3g m outside of its opening", miss.distance));
+}
+
 // Rings of one row miss alike: one warning for all of a place in the file.
 void warn_of_missed_rings(const Scene& scene, const Assembly& assembly, std::vector<std::string>& warnings) {
   std::vector<std::string> told;
@@ -30,14 +43,11 @@ void warn_of_missed_rings(const Scene& scene, const Assembly& assembly, std::vec
       return !source.text.empty() && other.source.text == source.text &&
              assembly.rings[static_cast<std::size_t>(&other - scene.rings.data())].missed;
     });
-    const Miss& miss = *ring.missed;
+    const std::string name = "ring '" + ring.name + "'" +
+                             (alike > 1 ? " (and " + std::to_string(alike - 1) + " more of this row)" : "");
     warnings.push_back(warning(
         source,
-        "no thread passes through ring '" + ring.name + "'" +
-            (alike > 1 ? " (and " + std::to_string(alike - 1) + " more of this row)" : "") +
-            (miss.part < 0 ? std::string(": none crosses its plane")
-                           : ": the nearest, " + assembly.parts[at(miss.part)].reference() +
-                                 words(", lies %.3g m outside of its opening", miss.distance)) +
+        words_of_miss(assembly, ring, name) +
             "; its joint = \"auto\" becomes contact with the wire (joint = \"contact\" says so without this "
             "warning)"));
   }

@@ -73,10 +73,11 @@ struct Threading {
   double side = 1;        ///< 1: the thread goes where the ring's normal points to; -1: the other way
 };
 
-/// The thread that comes nearest to passing through a ring.
+/// The thread that comes nearest to sliding through a ring.
 struct Miss {
-  Index part = -1;      ///< -1: none crosses the ring's plane
-  double distance = 0;  ///< by which it lies outside of the opening, m
+  Index part = -1;       ///< -1: none crosses the ring's plane
+  double distance = 0;   ///< by which it lies outside of the opening, m
+  double thickness = 0;  ///< m, where it goes through the ring and is too thick for the opening; else 0
 };
 
 struct AssemblyRing {
@@ -90,7 +91,7 @@ struct AssemblyRing {
   std::vector<Index> parts;             ///< the threads whose contact it can feel
   std::vector<Threading> threadings{};  ///< the threads that slide through it: none has contact with it
   Index host_a = -1, host_b = -1;       ///< end nodes of the host element, or twice its own node
-  std::optional<Miss> missed{};         ///< of an automatic joint that no thread passes through
+  std::optional<Miss> missed{};         ///< of an automatic joint that no thread can slide through
 };
 
 /// A mass on a node.

@@ -89,10 +89,16 @@ std::vector<double> places_in_ring(const Assembly& assembly, const std::map<Inde
   return places;
 }
 
-// Nothing where one of the threads passes.
+// Nothing where one of the threads passes and none is too thick to.
 std::optional<Miss> miss_of(const std::map<Index, LaidAlong>& carriers, const Assembly& assembly,
                             const AssemblyRing& ring) {
   Miss nearest;
+  for (const Index number : ring.parts) {
+    const Part& thread = assembly.parts[at(number)];
+    const double room = opening(assembly, ring, thread);
+    if (room <= 0 && !places_in_ring(assembly, carriers, ring, number).empty())
+      return Miss{number, -room, 2 * radius_of(assembly, thread)};
+  }
   for (const Index number : ring.parts) {
     if (!places_in_ring(assembly, carriers, ring, number).empty()) return std::nullopt;
     const Part& thread = assembly.parts[at(number)];
