@@ -163,6 +163,17 @@ TEST_F(Doubtful, AClosingThreadFarTooShortIsToldOf) {
   EXPECT_TRUE(has(err(), "warning: closing thread 'c'")) << err();
 }
 
+TEST_F(Doubtful, GreatStrainAtTheStartIsToldOf) {
+  for (const Words& words : {Words{"check", "closing.toml"},
+                             Words{"run", "closing.toml", "--out", "r", "--quiet", "--overwrite"}}) {
+    run(words + Words{"--set", "net.main.stowed_factor=1.2"});
+    for (const char* part : {"closing.toml:9:6: warning: element 0 of net.main ",
+                             "closing.toml:14:12: warning: element 0 of mechanism.m1 "})
+      EXPECT_TRUE(has(err(), part)) << words[0] << ": " << err();
+    EXPECT_TRUE(has(err(), " begins with 20 % of strain")) << err();
+  }
+}
+
 TEST_F(Doubtful, StepsBeforeAndFromTheClosingTimeOnAreTold) {
   const std::vector<std::string> words{"check", std::string(CINCH_SOURCE_DIR) + "/cases/capture.toml",
                                        "--set", "case.method=sliding",

@@ -78,6 +78,36 @@ void warn_of_short_threads(const Scene& scene, const Assembly& assembly, std::ve
   }
 }
 
+const SourceRef& source_of(const Scene& scene, const Part& part) {
+  const auto named = [&](const auto& items) -> const SourceRef& {
+    return std::find_if(items.begin(), items.end(), [&](const auto& item) { return item.name == part.name; })
+        ->source;
+  };
+  if (part.kind == PartKind::net) return named(scene.nets);
+  return part.kind == PartKind::mechanism ? named(scene.mechanisms) : thread_of(scene, part.name).source;
+}
+
+// What pulls an element that ends at another part's node.
+std::string gap_of(const Scene& scene, const Part& part, const BeginStrain& begin) {
+  if (begin.on.empty()) return "";
+  const std::string own =
+      part.closing ? "it is laid (along " + path_of(thread_of(scene, part.name)) + ")" : "points_m lead";
+  return "; " + begin.on + words(", on which it hangs there, lies %.3g m from where ", begin.gap) + own;
+}
+
+void warn_of_great_strain(const Scene& scene, const Preparation& preparation,
+                          std::vector<std::string>& warnings) {
+  for (const BeginStrain& begin : preparation.strained) {
+    const Part& part = preparation.assembly.parts[at(begin.part)];
+    warnings.push_back(warning(source_of(scene, part),
+                               element_label(preparation, begin.element) +
+                                   words(" begins with %.4g %% of strain, the most of its part, allowed "
+                                         "without this warning: %.3g %%",
+                                         100 * begin.strain, 100 * great_laid_strain) +
+                                   gap_of(scene, part, begin)));
+  }
+}
+
 void warn_of_late_closing(const Scene& scene, const Preparation& preparation,
                           std::vector<std::string>& warnings) {
   const bool closes = preparation.closing_step >= 0;
@@ -93,6 +123,7 @@ std::vector<std::string> case_warnings(const Scene& scene, const Preparation& pr
   std::vector<std::string> warnings;
   warn_of_late_closing(scene, preparation, warnings);
   warn_of_short_threads(scene, preparation.assembly, warnings);
+  warn_of_great_strain(scene, preparation, warnings);
   warn_of_missed_rings(scene, preparation.assembly, warnings);
   return warnings;
 }

@@ -78,6 +78,8 @@ void check_step(const Scene& scene, const StepKeys& keys, const Phase& phase, do
 double step_of(const Scene& scene, bool closed, Phase& phase) {
   const StepKeys keys = keys_of(scene, closed);
   phase.step_given = keys.step > 0;
+  phase.step_key = keys.key;
+  phase.step_source = keys.source;
   const double dt = keys.step > 0 ? keys.step : automatic_step(scene, keys.safety, phase.bound.step);
   check_step(scene, keys, phase, dt);
   check_number_of_steps(scene, keys, phase, dt);
@@ -133,7 +135,9 @@ namespace {
 void add_phases(const Scene& scene, Preparation& p) {
   const bool deploys = p.assembly.has_closing() && scene.closing.time.value_or(0) > 0;
   const auto add = [&](const char* name, Stage stage) {
-    Phase phase{name, build_model(p.assembly, scene, stage), {}, "", false, {}};
+    Phase phase;
+    phase.name = name;
+    phase.model = build_model(p.assembly, scene, stage);
     phase.bound = stable_step(phase.model);
     p.phases.push_back(std::move(phase));
   };
@@ -159,6 +163,7 @@ void note_least_stable_step(Preparation& p) {
 Preparation prepare(const Scene& scene) {
   Preparation p;
   p.assembly = assemble(scene);
+  if (!scene.equilibrium) p.strained = great_begin_strains(scene, p.assembly);  // else it hangs otherwise
   add_phases(scene, p);
   note_least_stable_step(p);
   const bool deploys = p.phases.size() > 1;

@@ -7,6 +7,7 @@
 #include "plan/stable_step.hpp"
 #include "plan/step_plan.hpp"
 #include "scene/assembly.hpp"
+#include "scene/begin_strain.hpp"
 
 namespace cinch {
 
@@ -17,6 +18,8 @@ struct Phase {
   StableStep bound;
   std::string limited_by;   ///< the element that limits the step, in words
   bool step_given = false;  ///< by the case; else automatic
+  std::string step_key;     ///< that gives it or may do so: "time.step_s" or "closing.step_s"
+  SourceRef step_source;    ///< of that key
   StepPlan plan;
 };
 
@@ -26,8 +29,9 @@ struct Preparation {
   std::int64_t closing_step = -1;  ///< first step of the closing phase; -1: nothing closes
   std::int64_t end_step = 0;
   Timeline timeline;
-  double stable_step = 0;  ///< s, the least of all phases
-  std::string limited_by;  ///< the element that limits it, in words
+  double stable_step = 0;             ///< s, the least of all phases
+  std::string limited_by;             ///< the element that limits it, in words
+  std::vector<BeginStrain> strained;  ///< parts that begin far too short for where they lie
 
   /// All nodes and elements that the scene ever has.
   const Model& whole() const { return phases.back().model; }

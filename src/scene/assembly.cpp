@@ -13,6 +13,7 @@
 #include "scene/fault.hpp"
 #include "scene/net_pattern.hpp"
 #include "scene/spring.hpp"
+#include "scene/thread_path.hpp"
 #include "scene/threading.hpp"
 
 namespace cinch {
@@ -221,23 +222,10 @@ class Assembler {
   }
 
   void add_thread(const Thread& thread) {
-    std::vector<double> reach{0};
-    for (std::size_t p = 1; p < thread.points.size(); ++p) {
-      reach.push_back(reach.back() + (thread.points[p] - thread.points[p - 1]).norm());
-      if (!(reach[p] > reach[p - 1]))
-        fail(thread.source, "thread '" + thread.name + "': points " + std::to_string(p) + " and " +
-                                std::to_string(p + 1) +
-                                " of points_m are too close to each other for the thread's length");
-    }
-    const double length = thread.length > 0 ? thread.length : reach.back();
-    add_thread_nodes(thread, length / thread.elements, [&](int k) {
-      const double s = reach.back() * k / thread.elements;
-      std::size_t p = 1;
-      while (p + 1 < reach.size() && reach[p] < s) ++p;
-      const double along = (s - reach[p - 1]) / (reach[p] - reach[p - 1]);
-      return add_node(thread.points[p - 1] + along * (thread.points[p] - thread.points[p - 1]),
-                      thread.velocity);
-    });
+    const ThreadPath path(thread);
+    const double length = thread.length > 0 ? thread.length : path.length();
+    add_thread_nodes(thread, length / thread.elements,
+                     [&](int k) { return add_node(path.node(k), thread.velocity); });
   }
 
   // The node that carries a ring; made when first asked for, which may be by a thread that hangs on it.
@@ -382,6 +370,9 @@ class Assembler {
       return lay.node;
     });
     out_.laid.push_back({part, length, laid, thread.elements * element_mass});
+    for (int k = 0; k <= thread.elements; ++k)
+      if (const NodeSpec* spec = spec_of(thread, k); spec != nullptr && !spec->on.empty())
+        out_.laid.back().elsewhere[k] = lay_at(carrier, thread, laid * k / thread.elements);
   }
 
   Index host_element(const Ring& ring) {

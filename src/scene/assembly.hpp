@@ -6,6 +6,7 @@
 // time is therefore the front part of the scene after it.
 #pragma once
 #include <array>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -106,6 +107,7 @@ struct LaidThread {
   double length = 0, covered = 0;  ///< unstretched, m; with its overhangs
   double mass = 0;                 ///< kg, of its elements
   std::vector<Load> excess{};  ///< of mass_before over its nodes' masses where they lie; sums up to nothing
+  std::map<int, Lay> elsewhere{};  ///< where nodes that are other parts' would be laid, by number; no node
   double strain() const { return covered / length - 1; }
 };
 
