@@ -113,4 +113,19 @@ TEST(GreatStrain, OfAClosingThreadTooShortIsToldByItsLengthAlone) {
   expect_pieces(warnings[0], {"closing thread 'c_top' of length_m = 0.5 m is laid over 1 m"});
 }
 
+// ---- nets
+
+TEST(ThickNet, IsToldOf) {
+  const auto net = [](const char* diameter, int elements) {
+    return scene_of(head + "[net.n]\nmaterial = \"m\"\nsize_m = [0.3, 0.2]\nmesh_m = 0.1\ndiameter_m = " +
+                    diameter + "\nelements_per_side = " + std::to_string(elements) + "\n");
+  };
+  EXPECT_TRUE(warnings_of(net("0.02", 4)).empty());
+  const auto warnings = warnings_of(net("0.03", 4));
+  ASSERT_EQ(warnings.size(), 1u);
+  expect_pieces(warnings[0],
+                {"test.toml:7:6: warning: net 'n' has threads of diameter_m = 0.03 m", ": 0.025 m (mesh_m"});
+  EXPECT_EQ(warnings_of(net("0.1", 1)).size(), 1u);
+}
+
 }  // namespace

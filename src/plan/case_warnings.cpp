@@ -108,6 +108,18 @@ void warn_of_great_strain(const Scene& scene, const Preparation& preparation,
   }
 }
 
+void warn_of_thick_nets(const Scene& scene, std::vector<std::string>& warnings) {
+  for (const Net& net : scene.nets) {
+    const double side = net.mesh / net.elements_per_side;
+    if (net.diameter < side) continue;
+    warnings.push_back(
+        warning(net.source, "net '" + net.name + "'" +
+                                words(" has threads of diameter_m = %.6g m, as thick as their elements are "
+                                      "long or thicker: %.6g m (mesh_m / elements_per_side)",
+                                      net.diameter, side)));
+  }
+}
+
 void warn_of_late_closing(const Scene& scene, const Preparation& preparation,
                           std::vector<std::string>& warnings) {
   const bool closes = preparation.closing_step >= 0;
@@ -124,6 +136,7 @@ std::vector<std::string> case_warnings(const Scene& scene, const Preparation& pr
   warn_of_late_closing(scene, preparation, warnings);
   warn_of_short_threads(scene, preparation.assembly, warnings);
   warn_of_great_strain(scene, preparation, warnings);
+  warn_of_thick_nets(scene, warnings);
   warn_of_missed_rings(scene, preparation.assembly, warnings);
   return warnings;
 }
