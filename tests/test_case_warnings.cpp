@@ -128,4 +128,49 @@ TEST(ThickNet, IsToldOf) {
   EXPECT_EQ(warnings_of(net("0.1", 1)).size(), 1u);
 }
 
+// ---- steps
+
+TEST(LongStep, IsToldOfWhereFramesOrRowsCannotKeepUp) {
+  const auto thread = [](const char* step, const std::string& output) {
+    return warnings_of(scene_of(R"(schema = 1
+[time]
+end_s = 0.1
+step_s = )" + std::string(step) +
+                                "\n[output]\n" + output + R"(
+[material.m]
+youngs_modulus_Pa = 1e3
+density_kg_m3 = 970
+[thread.main]
+material = "m"
+diameter_m = 0.002
+elements = 1
+points_m = [[0, 0, 0], [1, 0, 0]]
+start = { support = "fixed" }
+end = { mass_kg = 1 }
+)"));
+  };
+  const auto probes = thread("0.002", "probe_interval_s = 1e-3");
+  ASSERT_EQ(probes.size(), 1u);
+  expect_pieces(probes[0], {"test.toml:4:",
+                            ": warning: time.step_s = 0.002 s is longer than "
+                            "output.probe_interval_s = 0.001 s: rows of probes come every step"});
+  EXPECT_EQ(thread("0.02", "probe_interval_s = 1e-3").size(), 2u) << "frames, too";
+  EXPECT_TRUE(thread("0.002", "probe_interval_s = 0.002").empty());
+  EXPECT_TRUE(thread("0.002", "").empty());
+  EXPECT_TRUE(thread("\"auto\"", "probe_interval_s = 1e-3").empty());
+}
+
+TEST(LongStep, OfBothPhasesIsToldOnce) {
+  const auto with = [](std::vector<Override> sets) {
+    sets.push_back({"output.probe_interval_s", "1e-6"});
+    return warnings_of(read_case(case_file(capture()), sets));
+  };
+  EXPECT_EQ(with({{"time.step_s", "2e-6"}}).size(), 1u);
+  const auto closing = with({{"closing.step_s", "2e-6"}});
+  ASSERT_EQ(closing.size(), 1u);
+  expect_pieces(closing[0], {": warning: closing.step_s = 2e-06 s is longer than output.probe_interval_s"});
+  EXPECT_EQ(with({{"closing.step_s", "2e-6"}, {"time.end_s", "1"}}).size(), 1u)
+      << "of the closing time alone";
+}
+
 }  // namespace

@@ -63,6 +63,50 @@ TEST(Timeline, AutomaticStepsAreThoseOfWhatMovesThen) {
   EXPECT_NEAR(p.timeline.time_of(p.end_step), 2, p.timeline.after());
 }
 
+// A pendulum of one element could do with longer steps than its rows are apart.
+Scene pendulum(double frames, double probes) {
+  Scene scene = parse_case(R"(schema = 1
+[time]
+end_s = 0.1
+[gravity]
+acceleration_m_s2 = [0, 0, -9.81]
+[material.m]
+youngs_modulus_Pa = 1e6
+density_kg_m3 = 970
+[thread.main]
+material = "m"
+diameter_m = 0.002
+elements = 1
+points_m = [[0, 0, 0], [1, 0, 0]]
+start = { support = "fixed" }
+end = { mass_kg = 1 }
+)",
+                           "pendulum.toml");
+  scene.output.frame_interval = frames;
+  scene.output.probe_interval = probes;
+  return scene;
+}
+
+TEST(Timeline, AnAutomaticStepIsNoLongerThanProbesAreApart) {
+  const auto step = [](double frames, double probes) {
+    return prepare(pendulum(frames, probes)).timeline.after();
+  };
+  EXPECT_EQ(step(0.01, 0), 0.01);
+  EXPECT_EQ(step(0.01, 1e-3), 0.01 / 10);
+  EXPECT_EQ(step(0.02, 1e-4), 0.02 / 200) << "which divides to a little more than 200";
+  EXPECT_EQ(step(0.01, 0.003), 0.01 / 4) << "which does not divide the frames' interval";
+  EXPECT_EQ(step(0.01, 0.02), 0.01);
+  EXPECT_EQ(step(0.2, 0.002), 0.2 / 100);
+}
+
+TEST(Timeline, EachRowThatIsAskedForHasAStepOfItsOwn) {
+  const Timeline timeline = prepare(pendulum(0.01, 1e-3)).timeline;
+  app::Schedule rows(1e-3, timeline);
+  int count = 0;
+  for (std::int64_t step = 0; step <= timeline.step_at(0.1); ++step) count += rows.due(step);
+  EXPECT_EQ(count, 101);
+}
+
 TEST(Timeline, ACaseSaysHowLongStepsAreFromTheClosingTimeOn) {
   const Preparation own = prepare(capture_with({}));
   const auto steps_with = [](std::vector<Override> sets) {

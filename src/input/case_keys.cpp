@@ -68,7 +68,7 @@ const Section<TimeSpec>& time_section() {
             .by_method = {{"paper", "1e-6"}},
             .meaning =
                 "Time step. `auto`: `safety` times the stable step of what moves, before the closing time "
-                "and from it on.",
+                "and from it on, but no longer than frames and samples of probes are apart.",
             .source = "the paper's step (Sec. 5.3) is 1e-6 s; whether it is stable depends on the scene"},
            [](TimeSpec& time, const Value& value) { time.step = value.is_word ? 0 : value.number; }},
           {{.name = "safety",

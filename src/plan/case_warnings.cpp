@@ -129,11 +129,34 @@ void warn_of_late_closing(const Scene& scene, const Preparation& preparation,
                                    scene.closing.time.value_or(0), scene.time.end)));
 }
 
+// Frames, or rows of probes, that a given step cannot keep up with.
+void warn_of_long_steps(const Phase& phase, const char* key, double interval, const char* what,
+                        std::vector<std::string>& warnings) {
+  constexpr double rounding = 1e-9;
+  if (!phase.step_given || !(interval > 0) || phase.plan.dt <= interval * (1 + rounding)) return;
+  const std::string text =
+      warning(phase.step_source, phase.step_key + words(" = %.6g s is longer than ", phase.plan.dt) + key +
+                                     words(" = %.6g s: ", interval) + what + " come every step only");
+  // both phases may have the step from one key
+  if (std::find(warnings.begin(), warnings.end(), text) == warnings.end()) warnings.push_back(text);
+}
+
+void warn_of_long_steps(const Scene& scene, const Preparation& preparation,
+                        std::vector<std::string>& warnings) {
+  for (const Phase& phase : preparation.phases) {
+    if (phase.plan.first_step > 0 && phase.plan.first_step >= preparation.end_step) break;  // never comes
+    warn_of_long_steps(phase, "output.frame_interval_s", scene.output.frame_interval, "frames", warnings);
+    warn_of_long_steps(phase, "output.probe_interval_s", scene.output.probe_interval, "rows of probes",
+                       warnings);
+  }
+}
+
 }  // namespace
 
 std::vector<std::string> case_warnings(const Scene& scene, const Preparation& preparation) {
   std::vector<std::string> warnings;
   warn_of_late_closing(scene, preparation, warnings);
+  warn_of_long_steps(scene, preparation, warnings);
   warn_of_short_threads(scene, preparation.assembly, warnings);
   warn_of_great_strain(scene, preparation, warnings);
   warn_of_thick_nets(scene, warnings);

@@ -20,14 +20,18 @@ double greatest_safety(double damping_ratio) {
 
 std::string place_of(const SourceRef& source) { return source.text.empty() ? "" : source.text + ": "; }
 
-// A step that fits whole numbers of times into the frame interval, below safety x bound. From a closing time
-// on that is no frame's, frames and the end come up to half a step beside their time.
+// A step that fits whole numbers of times into the frame interval, below safety x bound and no longer than
+// probes are apart. From a closing time on that is no frame's, frames and the end come up to half a step
+// beside their time.
 double automatic_step(const Scene& scene, double safety, double bound) {
-  const double interval = scene.output.frame_interval;
+  const double interval = scene.output.frame_interval, probes = scene.output.probe_interval;
   for (const auto& [name, material] : scene.materials)
     safety = std::min(safety, greatest_safety(material.damping_ratio));
   const double wanted = std::isfinite(bound) ? safety * bound : interval;
-  return interval / std::ceil(interval / wanted);
+  double steps = std::ceil(interval / wanted);
+  constexpr double rounding = 1e-9;  // 0.02 s are 200 times 1e-4 s
+  if (probes > 0) steps = std::max(steps, std::ceil(interval / probes * (1 - rounding)));
+  return interval / steps;
 }
 
 // What the case says of the steps of a phase.
