@@ -312,6 +312,72 @@ TEST(ErrorEstimate, TellsWhatStoppedAFinerRun) {
   EXPECT_GT(row.difference[ErrorEstimate::of_step], 0);
 }
 
+// A heavy mass on one light element could do with longer steps than two elements allow.
+Scene pendulum() {
+  return scene_of(R"(schema = 1
+[time]
+end_s = 0.05
+[gravity]
+acceleration_m_s2 = [0, 0, -9.81]
+[material.m]
+youngs_modulus_Pa = 1e9
+density_kg_m3 = 970
+[thread.main]
+material = "m"
+diameter_m = 0.002
+elements = 1
+points_m = [[0, 0, 0], [1, 0, 0]]
+start = { support = "fixed" }
+end = { mass_kg = 1 }
+[probe.end]
+quantity = "position"
+of = "thread.main.end"
+[probe.start]
+quantity = "position"
+of = "thread.main.start"
+)");
+}
+
+TEST(ErrorEstimate, TwiceTheElementsTakeAnAutomaticStepOfTheirOwnWhereTheyNeedIt) {
+  const Scene scene = pendulum();
+  Scene half = scene;
+  half.time.step = prepare(scene).timeline.after() / 2;
+  ASSERT_THROW(prepare(finer_threads(half, 2)), CaseError);
+  const ErrorEstimate estimate = estimate_error(scene, {1, 1}, quietly);
+  EXPECT_TRUE(estimate.stopped.empty()) << estimate.stopped.front();
+  const RunTrack by_step = follow(half, 1), by_threads = follow(finer_threads(scene, 2), 1);
+  EXPECT_DOUBLE_EQ(row_of(estimate, "end").difference[ErrorEstimate::of_threads],
+                   apart(by_step, by_threads, 0));
+}
+
+TEST(ErrorEstimate, AGivenStepIsHalvedWhateverTheElements) {
+  Scene scene = pendulum();
+  scene.time.step = 0.01;
+  const ErrorEstimate estimate = estimate_error(scene, {1, 1}, quietly);
+  ASSERT_EQ(estimate.stopped.size(), 1u);
+  EXPECT_NE(estimate.stopped[0].find("time.step_s = 0.005 s is above"), std::string::npos)
+      << estimate.stopped[0];
+}
+
+// Lengths of elements that lie askew are rounded, and so is what they pull with.
+TEST(ErrorEstimate, KnowsWhatDoesNotMove) {
+  Scene scene = pendulum();
+  scene.gravity.reset();
+  scene.threads[0].elements = 7;
+  scene.threads[0].points = {{0.1, 0.2, 0.3}, {0.8, 0.9, 0.7}};
+  scene.probes[1].of = "thread.main.node.3";
+  const ErrorEstimate still = estimate_error(scene, {1, 1}, quietly);
+  EXPECT_GT(row_of(still, "start").size, 0);
+  EXPECT_LT(row_of(still, "start").size, 1e-13);
+  EXPECT_GT(row_of(still, "start").difference[ErrorEstimate::of_chance], 1e-11);
+  EXPECT_TRUE(row_of(still, "start").still);
+  EXPECT_TRUE(row_of(still, "end").still);
+  EXPECT_FALSE(row_of(still, "all nodes").still) << "its size is the scene's";
+  const ErrorEstimate moves = estimate_error(pendulum(), {1, 1}, quietly);
+  EXPECT_TRUE(row_of(moves, "start").still) << "it is fixed";
+  EXPECT_FALSE(row_of(moves, "end").still);
+}
+
 TEST(ErrorEstimate, ThrowsWhatStopsTheCaseItself) {
   Scene scene = waving_thread(8);
   scene.time.speed_limit = 0.5;

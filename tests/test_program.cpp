@@ -223,6 +223,40 @@ TEST_F(Program, CheckTellsTheErrorWhereAsked) {
   EXPECT_TRUE(has(out(), "its trial stopped: at t = 1e-06 s node 0") && has(out(), "moves at")) << out();
 }
 
+const char* const pendulum = R"(schema = 1
+[time]
+end_s = 0.05
+[gravity]
+acceleration_m_s2 = [0, 0, -9.81]
+[material.m]
+youngs_modulus_Pa = 1e9
+density_kg_m3 = 970
+[thread.main]
+material = "m"
+diameter_m = 0.002
+elements = 1
+points_m = [[0, 0, 0], [1, 0, 0]]
+start = { support = "fixed" }
+end = { mass_kg = 1 }
+[probe.start]
+quantity = "position"
+of = "thread.main.start"
+)";
+
+TEST_F(Program, AnEstimateWithAStoppedRunEndsWithThree) {
+  write("pendulum.toml", pendulum);
+  EXPECT_EQ(run({"check", "pendulum.toml", "--error", "--set", "time.step_s=0.01"}), 3) << err();
+  EXPECT_TRUE(has(out(), "\nstopped          half the step, twice the elements in threads: ")) << out();
+  EXPECT_EQ(run({"check", "pendulum.toml", "--error"}), 0) << err();
+  EXPECT_FALSE(has(out(), "stopped")) << out();
+}
+
+TEST_F(Program, AnEstimateSaysWhatDoesNotMove) {
+  write("pendulum.toml", pendulum);
+  ASSERT_EQ(run({"check", "pendulum.toml", "--error"}), 0) << err();
+  EXPECT_TRUE(has(out(), "\n  start                    greatest over time  does not move\n")) << out();
+}
+
 TEST_F(Program, AResolvedCaseRunsToTheSameBits) {
   ASSERT_EQ(run({"check", "tiny.toml", "--resolved"}), 0);
   write("resolved.toml", out());

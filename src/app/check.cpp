@@ -203,10 +203,13 @@ int print_verdict(const Trial& trial) {
   return static_cast<int>(ExitCode::numerical);
 }
 
-void check_error(const Scene& scene, const ErrorRuns& runs) {
+// The exit code: that of a run, where one of them was stopped.
+int check_error(const Scene& scene, const ErrorRuns& runs) {
   std::fflush(stdout);
-  print_error(
-      estimate_error(scene, runs, [](const std::string& what) { std::cerr << "running " << what << "\n"; }));
+  const ErrorEstimate estimate =
+      estimate_error(scene, runs, [](const std::string& what) { std::cerr << "running " << what << "\n"; });
+  print_error(estimate);
+  return static_cast<int>(estimate.stopped.empty() ? ExitCode::done : ExitCode::numerical);
 }
 
 int check_scene(const Scene& scene, int threads, const CheckOptions& options) {
@@ -227,8 +230,8 @@ int check_scene(const Scene& scene, int threads, const CheckOptions& options) {
   std::fflush(stdout);
   for (const std::string& warning : warnings) std::cerr << warning << "\n";
   const int code = print_verdict(trial);
-  if (options.error && code == 0) check_error(scene, {options.runs, threads});
-  return code;
+  if (!options.error || code != 0) return code;
+  return check_error(scene, {options.runs, threads});
 }
 
 }  // namespace

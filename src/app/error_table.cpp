@@ -35,6 +35,10 @@ std::string size_of(const ErrorEstimate::Row& row) {
 }
 
 void print_row(const ErrorEstimate::Row& row) {
+  if (row.still) {
+    std::printf("  %-24s %-19s does not move\n", row.name.c_str(), row.measure.c_str());
+    return;
+  }
   std::printf("  %-24s %-19s %14s %10s %10s %10s %10s\n", row.name.c_str(), row.measure.c_str(),
               size_of(row).c_str(), percent(row.difference[ErrorEstimate::of_step], row.size).c_str(),
               percent(row.difference[ErrorEstimate::of_threads], row.size).c_str(),
@@ -53,6 +57,7 @@ void print_error(const ErrorEstimate& estimate) {
   bool chance = false, bound = false;
   for (const ErrorEstimate::Row& row : estimate.rows) {
     print_row(row);
+    if (row.still) continue;
     chance = chance || (row.by_chance() && !row.bounded());
     bound = bound || (row.by_chance() && row.bounded());
   }

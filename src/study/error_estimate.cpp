@@ -123,6 +123,24 @@ double distance(const Measure& measure, const Pictures& a, const Pictures& b, st
   return measure.size(difference(mean(a.all, runs), mean(b.all, runs)));
 }
 
+// Of the largest coordinate by the end, m.
+double scale_of(const RunTrack& track) {
+  double most = 0;
+  for (const std::vector<Vec3>& part : track.nodes)
+    for (const Vec3& place : part) most = std::max(most, place.cwiseAbs().maxCoeff());
+  return most;
+}
+
+// Whether a place, a distance or a velocity is what rounding makes of none, in finer runs, too.
+bool stands_still(const ErrorEstimate::Row& row, const RunTrack& own, double end) {
+  if (row.unit != "m" && row.unit != "m/s") return false;
+  constexpr double rounding = 1e-12, nudged = 1e-6;
+  const double scale = scale_of(own) / (row.unit == "m" ? 1 : end);
+  const auto differs = [&](ErrorEstimate::Difference by) { return row.difference[by] > nudged * scale; };
+  return row.size <= rounding * scale && !differs(ErrorEstimate::of_step) &&
+         !differs(ErrorEstimate::of_threads);
+}
+
 ErrorEstimate::Row row_of(const std::string& name, const Measure& measure,
                           const std::vector<Ensemble>& ensembles, std::size_t runs) {
   const Pictures finer(ensembles[0], measure), half(ensembles[1], measure), own(ensembles[2], measure);
@@ -155,6 +173,7 @@ std::vector<ErrorEstimate::Row> rows_of(const Scene& scene, const std::vector<En
     rows.back().unit = unit;
     const Picture picture = measure.picture(own);
     rows.back().size = place ? extent(picture) : greatest(picture);
+    rows.back().still = stands_still(rows.back(), own, scene.time.end);
   };
   const std::vector<ResultModel::ProbeColumn> all = probe_columns(scene, assemble(scene));
   std::size_t first = 0;
@@ -173,18 +192,40 @@ std::vector<ErrorEstimate::Row> rows_of(const Scene& scene, const std::vector<En
   return rows;
 }
 
+Scene half_of(const Scene& scene, const Timeline& timeline) {
+  Scene half = scene;
+  half.time.step = timeline.before() / 2;
+  half.closing.step = timeline.after() / 2;
+  return half;
+}
+
+// With twice the elements besides. Where the case leaves the step open, it is their own automatic one if that
+// is shorter still.
+Scene finer_of(const Scene& scene, const Scene& half, const Preparation& own) {
+  Scene finer = finer_threads(half, 2), open = finer;
+  const bool before = own.phases.front().step_given, after = own.phases.back().step_given;
+  if (!before) open.time.step = scene.time.step;
+  if (!after) open.closing.step = scene.closing.step;
+  try {
+    const Timeline timeline = prepare(open).timeline;
+    if (!before) finer.time.step = std::min(half.time.step, timeline.before());
+    if (!after) finer.closing.step = std::min(*half.closing.step, timeline.after());
+  } catch (const CaseError&) {
+    // the run itself tells
+  }
+  return finer;
+}
+
 }  // namespace
 
 ErrorEstimate estimate_error(const Scene& scene, const ErrorRuns& runs,
                              const std::function<void(const std::string&)>& announce) {
   const auto each = static_cast<std::size_t>(std::max(runs.each, 1));
-  Scene half = scene;
-  const Timeline timeline = prepare(scene).timeline;
-  half.time.step = timeline.before() / 2;
-  half.closing.step = timeline.after() / 2;
+  const Preparation own = prepare(scene);
+  const Scene half = half_of(scene, own.timeline);
   // the longest first
   std::vector<Ensemble> ensembles{
-      {"half the step, twice the elements in threads", finer_threads(half, 2), each},
+      {"half the step, twice the elements in threads", finer_of(scene, half, own), each},
       {"half the step", half, each},
       {"the case itself", scene, std::max<std::size_t>(each, 2)}};
   run_all(ensembles, runs.threads, announce);

@@ -22,6 +22,7 @@ struct ErrorEstimate {
     std::string measure;  ///< what is compared, in words
     std::string unit;
     double size = 0;                               ///< of the case's own, to compare with
+    bool still = false;                            ///< its size is rounding: nothing to compare with
     std::array<double, differences> difference{};  ///< NaN where a run was stopped
 
     /// What errors of first order would be: twice the differences that halving step and elements makes.
