@@ -366,6 +366,89 @@ TEST(Report, A_run_that_ends_early_decides_nothing_that_comes_later) {
     EXPECT_EQ(verdict_on({caught}, std::string("capture.") + key), Verdict::missing) << key;
 }
 
+// Leaves samples at multiples of `interval` alone.
+void thin_out(VectorSeries& series, double interval) {
+  VectorSeries left{{}, {}, series.source};
+  for (std::size_t i = 0; i < series.t.size(); ++i) {
+    const double number = series.t[i] / interval;
+    if (std::abs(number - std::round(number)) * interval > 1e-9) continue;
+    left.t.push_back(series.t[i]);
+    left.v.push_back(series.v[i]);
+  }
+  series = left;
+}
+
+void thin_out(Digest& d, double interval) {
+  for (auto* all : {&d.ring_position, &d.ring_force, &d.mass_position, &d.mass_velocity})
+    for (VectorSeries& series : *all) thin_out(series, interval);
+}
+
+TEST(Report, A_run_without_samples_where_a_number_is_measured_decides_nothing) {
+  for (const double interval : {0.7, 1.05, 2.1}) {  // one sample in each window, or none
+    Digest caught = capture(), other = capture(1.3);
+    for (Digest* d : {&caught, &other}) d->mass_position = d->mass_velocity, thin_out(*d, interval);
+    for (const char* key :
+         {"jump_x", "jump_y", "jump_z", "a1_falls", "a1_turns", "a1_y_steady", "mirror", "later_further"})
+      EXPECT_EQ(verdict_on({caught, other}, std::string("capture.") + key), Verdict::missing)
+          << key << " of samples every " << interval << " s";
+  }
+  Digest caught = capture();
+  caught.mass_position = caught.mass_velocity;
+  thin_out(caught, 0.02);
+  for (const char* key : {"jump_x", "a1_falls", "a1_turns", "a1_y_steady", "mirror"})
+    EXPECT_NE(verdict_on({caught}, std::string("capture.") + key), Verdict::missing)
+        << key << " of the cases' own frames";
+  Digest pull = good_pull();
+  pull.summary.reset();
+  pull.frame_times = {0, 1.05};
+  for (auto* all : {&pull.mass_position, &pull.ring_position, &pull.ring_force})
+    for (VectorSeries& series : *all) series.t = {0, 1.05}, series.v = {series.v.front(), series.v.back()};
+  for (const char* key : {"passes", "drags", "force_200", "ball_y", "ball_z", "ring_y"})
+    EXPECT_EQ(verdict_on({pull}, std::string("ring_pull.") + key), Verdict::missing) << key;
+  Digest fine = ring_pull(300, 1, {0, 0.58, -0.4}, 0.302);
+  EXPECT_EQ(verdict_on({pull, fine}, "ring_pull.coincide"), Verdict::missing);
+  EXPECT_EQ(verdict_on({fine, pull, ring_pull(100, 2.5, {0, 0.6, -0.3}, 0.31)}, "ring_pull.fewer_larger"),
+            Verdict::missing);
+}
+
+TEST(Report, Two_samples_of_different_times_are_no_mirror) {
+  Digest d = capture();
+  thin_out(velocity_of_b(d), 0.02);
+  EXPECT_EQ(verdict_on({d}, "capture.mirror"), Verdict::missing);
+}
+
+TEST(Report, Events_that_were_hardly_looked_for_decide_nothing) {
+  Digest open = capture(), late = capture();
+  open.summary->events.resize(2);
+  EXPECT_EQ(verdict_on({open}, "capture.enclosed"), Verdict::not_reproduced);
+  open.look_interval = 0.02;
+  EXPECT_EQ(verdict_on({open}, "capture.enclosed"), Verdict::not_reproduced);
+  open.look_interval = 10;
+  EXPECT_EQ(verdict_on({open}, "capture.enclosed"), Verdict::missing);
+  late.look_interval = 0.38;  // 1.52, 1.9
+  EXPECT_EQ(verdict_on({late}, "capture.closes_after"), Verdict::reproduced);
+  late.look_interval = 0.95;
+  EXPECT_EQ(verdict_on({late}, "capture.closes_after"), Verdict::missing);
+  EXPECT_EQ(verdict_on({late}, "capture.enclosed"), Verdict::reproduced) << "it was seen";
+}
+
+TEST(Report, A_spread_or_a_height_needs_a_sample_near) {
+  Digest d;
+  d.paper_case = PaperCase::edge_closure;
+  d.model.masses = {{"thread.closing.left", 0, 0.1}, {"thread.closing.right", 1, 0.1}};
+  d.ring_position = {line(Vec3::Zero(), Vec3::Zero(), 1)};
+  d.mass_position = {line({0, 0, 0}, {0, 0, -0.98}, 1), line({0, 0, 0}, {0, 0, -0.99}, 1)};
+  d.mouth_spread = {{0, 0.5, 1}, {0.9, 0.05, 0.05}};
+  d.frame_times = {0, 1};
+  d.gravity = Vec3(0, 0, -9.81);
+  EXPECT_EQ(verdict_on({d}, "edge_closure.bunched"), Verdict::reproduced);
+  EXPECT_EQ(verdict_on({d}, "edge_closure.left_above"), Verdict::reproduced);
+  d.mouth_spread = {{0, 1}, {0, 0}};
+  thin_out(d, 1);
+  EXPECT_EQ(verdict_on({d}, "edge_closure.bunched"), Verdict::missing);
+  EXPECT_EQ(verdict_on({d}, "edge_closure.left_above"), Verdict::missing);
+}
+
 TEST(Report, Results_that_end_early_do_not_spoil_a_comparison_of_several) {
   const Digest middle = good_pull(), coarse = ring_pull(100, 2.5, {0, 0.60, -0.30}, 0.310);
   Digest early = ring_pull(300, 0, {0, -0.3, -0.5}, 0);

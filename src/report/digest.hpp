@@ -26,6 +26,7 @@ struct Digest {
   std::string file;  ///< of the result
   PaperCase paper_case = PaperCase::none;
   std::string unjudged;                                    ///< why a scene like the paper's is not judged
+  double look_interval = 0;                                ///< s, between looks for events; 0: not known
   std::vector<double> frame_times;                         ///< s
   std::vector<Energies> energies;                          ///< J, of the frames
   std::vector<VectorSeries> ring_position, ring_force;     ///< m, N: one for each ring

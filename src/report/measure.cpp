@@ -25,6 +25,24 @@ Results by_elements(Results results) {
   return results;
 }
 
+// Frames and samples come at the steps nearest to their times.
+double same_time(const Digest& d) {
+  return std::max(kInstant, 1.001 * 0.5 * std::max(d.model.time_step, d.model.closing_time_step));
+}
+
+Measured at_time(const Digest& d, const Series& series, double time) {
+  if (!reaches(d, time)) return past_the_end(d, time);
+  if (told(d, series.t, time)) return {series.at(time), ""};
+  char text[60];
+  std::snprintf(text, sizeof text, "no samples near %.4g s", time);
+  return missing(text);
+}
+
+Measured less(const Measured& a, const Measured& b) {
+  if (!a.value || !b.value) return a.value ? b : a;
+  return {*a.value - *b.value, ""};
+}
+
 }  // namespace
 
 Measured missing(const std::string& what) { return {std::nullopt, what}; }
@@ -36,9 +54,20 @@ Measured past_the_end(const Digest& d, double time) {
 }
 
 // Runs end at the step nearest to the end that they were given.
-bool reaches(const Digest& d, double time) {
-  const double half_step = 0.5 * std::max(d.model.time_step, d.model.closing_time_step);
-  return d.end_time() >= time - std::max(kInstant, 1.001 * half_step);
+bool reaches(const Digest& d, double time) { return d.end_time() >= time - same_time(d); }
+
+Measured too_few(double from, double to) {
+  char text[80];
+  std::snprintf(text, sizeof text, "fewer than two samples from %.4g s to %.4g s", from, to);
+  return missing(text);
+}
+
+bool told(const Digest& d, const std::vector<double>& t, double time) {
+  const double same = same_time(d);
+  const auto after = std::lower_bound(t.begin(), t.end(), time - same);
+  if (after != t.end() && *after <= time + same) return true;
+  if (after == t.begin() || after == t.end()) return false;
+  return *after - time <= sample_reach && time - *(after - 1) <= sample_reach;
 }
 
 std::optional<Peak> peak_force(const Digest& d, int ring, double until) {
@@ -46,6 +75,7 @@ std::optional<Peak> peak_force(const Digest& d, int ring, double until) {
   if (record && record->peak_time <= until + kInstant) return Peak{record->peak_force, record->peak_time, ""};
   if (ring < 0 || d.ring_force.size() <= at(ring) || d.ring_force[at(ring)].empty()) return std::nullopt;
   const VectorSeries& force = d.ring_force[at(ring)];
+  if (samples_between(force.t, 0, until + kInstant) < 2) return std::nullopt;
   Peak peak{0, -1, force.source};
   for (std::size_t i = 0; i < force.t.size() && force.t[i] <= until + kInstant; ++i)
     if (const double size = force.v[i].norm(); size > peak.force) peak.force = size, peak.time = force.t[i];
@@ -54,16 +84,17 @@ std::optional<Peak> peak_force(const Digest& d, int ring, double until) {
 
 Measured ball_ahead_of_ring(const Digest& d) {
   if (d.mass_position.empty() || d.ring_position.empty()) return missing("no ball or no ring in this result");
-  if (!reaches(d, kPullEnd)) return past_the_end(d, kPullEnd);
-  return {d.mass_position[0].component(1).at(kPullEnd) - d.ring_position[0].component(1).at(kPullEnd), ""};
+  return less(at_time(d, d.mass_position[0].component(1), kPullEnd),
+              at_time(d, d.ring_position[0].component(1), kPullEnd));
 }
 
 Measured ring_end_speed(const Digest& d) {
   if (d.ring_position.empty() || d.frame_times.size() < 2) return missing("no ring or a single frame");
-  if (!reaches(d, kPullEnd)) return past_the_end(d, kPullEnd);
   constexpr double span = 0.1 * kPullEnd;
   const Series y = d.ring_position[0].component(1);
-  return {(y.at(kPullEnd) - y.at(kPullEnd - span)) / span, ""};
+  Measured way = less(at_time(d, y, kPullEnd), at_time(d, y, kPullEnd - span));
+  if (way.value) *way.value /= span;
+  return way;
 }
 
 Measured peak_ring_force(const Digest& d) {
@@ -98,31 +129,30 @@ Measured curves_apart(const Results& results, int fewer, int more) {
     if (!reaches(*d, kPullEnd)) return past_the_end(*d, kPullEnd);
   const Series ya = a->ring_position.at(0).component(1), yb = b->ring_position.at(0).component(1);
   double apart = 0;
-  for (const double t : a->frame_times)
-    if (t <= kPullEnd + kInstant) apart = std::max(apart, std::abs(ya.at(t) - yb.at(t)));
-  return {apart, ""};
+  int samples = 0;  // but for the start, where both are the same
+  for (const double t : a->frame_times) {
+    if (t > kPullEnd + kInstant || !told(*a, ya.t, t) || !told(*b, yb.t, t)) continue;
+    apart = std::max(apart, std::abs(ya.at(t) - yb.at(t)));
+    samples += t > 0;
+  }
+  return samples < 2 ? too_few(0, kPullEnd) : Measured{apart, ""};
 }
 
 Measured beyond(const Digest& d, const Results& results, int reference) {
   const Digest* other = with_elements(results, reference);
   if (!other) return missing("needs a result of " + std::to_string(reference) + " elements");
-  for (const Digest* each : {&d, other})
-    if (!reaches(*each, kPullEnd)) return past_the_end(*each, kPullEnd);
-  return {
-      d.ring_position.at(0).component(1).at(kPullEnd) - other->ring_position.at(0).component(1).at(kPullEnd),
-      ""};
+  return less(at_time(d, d.ring_position.at(0).component(1), kPullEnd),
+              at_time(*other, other->ring_position.at(0).component(1), kPullEnd));
 }
 
 Measured ring_at(const Digest& d, int ring, int axis, double time) {
   if (d.ring_position.size() <= at(ring)) return missing("no ring in this result");
-  if (!reaches(d, time)) return past_the_end(d, time);
-  return {d.ring_position[at(ring)].component(axis).at(time), ""};
+  return at_time(d, d.ring_position[at(ring)].component(axis), time);
 }
 
 Measured mass_at(const Digest& d, int mass, int axis, double time) {
   if (d.mass_position.size() <= at(mass)) return missing("no ball in this result");
-  if (!reaches(d, time)) return past_the_end(d, time);
-  return {d.mass_position[at(mass)].component(axis).at(time), ""};
+  return at_time(d, d.mass_position[at(mass)].component(axis), time);
 }
 
 Measured start_speed(const Digest& d) {
@@ -132,8 +162,7 @@ Measured start_speed(const Digest& d) {
 
 Measured spread_at(const Digest& d, double time) {
   if (d.mouth_spread.empty()) return missing("fewer than two rings");
-  if (!reaches(d, time)) return past_the_end(d, time);
-  return {d.mouth_spread.at(time), ""};
+  return at_time(d, d.mouth_spread, time);
 }
 
 std::optional<std::array<int, 2>> left_and_right(const Digest& d) {
@@ -155,14 +184,15 @@ std::optional<std::array<int, 2>> left_and_right(const Digest& d) {
 Measured left_above_right(const Digest& d, double time) {
   const auto pair = left_and_right(d);
   if (!pair) return missing("needs two named masses and rings");
-  if (!reaches(d, time)) return past_the_end(d, time);
   if (!d.gravity) return missing("no gravity in the resolved case");
   const Vec3 up = -d.gravity->normalized();
-  double height[2] = {0, 0};
-  for (std::size_t side = 0; side < 2; ++side)
-    for (int axis = 0; axis < 3; ++axis)
-      height[side] += up[axis] * d.mass_position[at((*pair)[side])].component(axis).at(time);
-  return {height[0] - height[1], ""};
+  const auto height = [&](int mass) {
+    const VectorSeries& path = d.mass_position[at(mass)];
+    Series heights{path.t, {}};
+    for (const Vec3& place : path.v) heights.v.push_back(up.dot(place));
+    return at_time(d, heights, time);
+  };
+  return less(height((*pair)[0]), height((*pair)[1]));
 }
 
 }  // namespace cinch::measure

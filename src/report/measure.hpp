@@ -1,6 +1,7 @@
 // How each number of the paper is measured in a result. A number that a result cannot give comes back empty
 // with a note that says what is missing. What the paper tells of the end of its runs is measured at that
-// time: a run that has not come so far decides nothing, a longer one tells the same.
+// time: a run that has not come so far decides nothing, a longer one tells the same. Nor does one decide that
+// has no samples where a number is measured.
 #pragma once
 #include <optional>
 #include <string>
@@ -23,6 +24,12 @@ using Results = std::vector<const Digest*>;
 Measured missing(const std::string& what);
 bool reaches(const Digest& d, double time);
 Measured past_the_end(const Digest& d, double time);  ///< why a number of this time is missing
+Measured too_few(double from, double to);             ///< samples of this time: why a number is missing
+
+/// Samples further than this from a time tell nothing of it, s: more than a frame of the cases.
+inline constexpr double sample_reach = 0.025;
+/// Whether samples at these times tell what was at `time`: one then, or one near on each side.
+bool told(const Digest& d, const std::vector<double>& t, double time);
 
 /// The greatest contact force on a ring up to a time.
 struct Peak {

@@ -148,8 +148,9 @@ string closing_time_row(const Digest& d) {
   const double closing = *d.model.closing_time;
   const auto closed = measure::closed_after(d), enclosed = measure::enclosed(d);
   string z = "–";
-  if (const auto pair = measure::split_masses(d); pair && measure::reaches(d, closing + 0.4))
-    z = html::quantity(measure::mass_at(d, (*pair)[0], 2, closing + 0.4).value.value_or(std::nan("")), "m");
+  if (const auto pair = measure::split_masses(d))
+    if (const auto place = measure::mass_at(d, (*pair)[0], 2, closing + 0.4).value)
+      z = html::quantity(*place, "m");
   const auto cell = [](const string& text) { return "<td class=\"n\">" + text + "</td>"; };
   return "<tr>" + cell(html::quantity(closing, "s")) +
          cell(closed.value ? html::quantity(*closed.value + closing, "s") : "–") +

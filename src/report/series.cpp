@@ -43,6 +43,12 @@ Series VectorSeries::norm() const {
   return out;
 }
 
+std::size_t samples_between(const std::vector<double>& t, double from, double to) {
+  const auto first = std::upper_bound(t.begin(), t.end(), from);
+  const auto last = std::upper_bound(t.begin(), t.end(), to);
+  return first < last ? static_cast<std::size_t>(last - first) : 0;
+}
+
 Series thinned(const Series& series, std::size_t most) {
   const std::size_t n = series.t.size();
   if (n <= most || most < 4) return series;

@@ -32,6 +32,9 @@ struct VectorSeries {
   Series norm() const;
 };
 
+/// How many samples lie behind `from`, up to `to`.
+std::size_t samples_between(const std::vector<double>& t, double from, double to);
+
 /// At most `most` points of a series, keeping the least and the greatest value of each of most/2 stretches,
 /// so that spikes survive; first and last point stay.
 Series thinned(const Series& series, std::size_t most = 3000);
