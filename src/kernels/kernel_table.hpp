@@ -41,11 +41,12 @@ struct KernelTable {
                      const kernel::Held*, kernel::Reaction* const* reactions);
   kernel::NodeEnergies (*node_energies)(const kernel::EnergyArguments&);
   /// Contacts of the pairs pairs[near[i]], i < count, in the order of their rings. Writes forces on nodes to
-  /// `loads` (room for four a pair) and the distance left to a contact to gap[i], m (negative:
-  /// penetration). Returns the number of loads.
+  /// `loads` (room for four a pair) and to sleep[i] the motion of ring_sleep.hpp, m (0 or less: touches).
+  /// Returns the number of loads.
   Index (*ring_contacts)(const kernel::RingArguments&, const kernel::Pair* pairs, const Index* near,
-                         Index count, double* gap, kernel::Load* loads);
-  /// The same for balls; two loads a pair.
+                         Index count, double* sleep, kernel::Load* loads);
+  /// The same for balls; two loads a pair, and to gap[i] the distance left to a contact, m (negative:
+  /// penetration).
   Index (*ball_contacts)(const kernel::BallArguments&, const kernel::Pair* pairs, const Index* near,
                          Index count, double* gap, kernel::Load* loads);
   /// Rings that slide on threads: moves waypoints, lets nodes pass, writes what nodes of the threads take

@@ -52,6 +52,8 @@ struct RingMotion {
 
   double half() const { return held ? 1.0 : 0.5; }
   double turn_length(const RingArguments& g) const { return held || !g.couple ? 0.0 : inverse_length; }
+  // as RingLanes::turning
+  double turning() const { return inverse_length > 0 || held ? inverse_length : HUGE_VAL; }
 };
 
 inline RingMotion ring_motion(const kernel::ContactArguments& c, const RingGeometry& ring) {
@@ -122,15 +124,20 @@ inline PairPoints pair_points(const RingArguments& g, const RingMotion& ring, do
   return p;
 }
 
-// One pair; returns the distance left to a contact. Rarely needed beside the batches: kept out of their way.
-[[gnu::noinline, gnu::cold]] double one_pair(const RingArguments& g, const Pair& c,
-                                             const kernel::RingLane& lane, PairLoads& loads, RingSum& sum) {
+// What one pair is away from a contact, m, and the motion up to which it needs no look.
+struct PairGap {
+  double gap, sleep;
+};
+
+// One pair. Rarely needed beside the batches: kept out of their way.
+[[gnu::noinline, gnu::cold]] PairGap one_pair(const RingArguments& g, const Pair& c,
+                                              const kernel::RingLane& lane, PairLoads& loads, RingSum& sum) {
   const RingMotion ring = ring_motion(g.contact, g.rings[c.with]);
   const double radius = g.rings[c.with].radius;
   const PairPoints p = pair_points(g, ring, radius, c);
   const CirclePoint& point = p.element;
   const double depth = c.contact_distance - point.distance;
-  if (!(depth > 0)) return -depth;
+  if (!(depth > 0)) return {-depth, ring_sleep(-depth, radius, ring.turning())};
   const bool once = c.fraction_a > 0;
   const double depth_a = once ? c.contact_distance - p.end_a.distance : 0;
   const double depth_b = once ? c.contact_distance - p.end_b.distance : 0;
@@ -147,7 +154,7 @@ inline PairPoints pair_points(const RingArguments& g, const RingMotion& ring, do
       c, depth, times * host_use(kappa, ring.half(), ring.turn_length(g), lever, lane.host_share),
       both ? thread_share_of_both(c, kappa, point.t, depth, depth_a, depth_b, lane.share_a, lane.share_b)
            : thread_share(kappa, point.t, lane.share_a, lane.share_b));
-  return -depth;
+  return {-depth, 0};
 }
 
 inline void write_loads(const kernel::RingLane& p, const PairLoads& loads, LoadWriter& out) {
@@ -204,20 +211,19 @@ inline void take_lane(const RingArguments& g, const RingLanes& l, Index lane, co
   sum.note_use(c, -l.gap.at[lane], l.host_use.at[lane], l.thread_use.at[lane]);
 }
 
-// A pair that may touch, which stands in `lane`; returns the distance left to a contact.
+// A pair that may touch, which stands in `lane`; returns the motion up to which it needs no look.
 inline double take_pair(const RingArguments& g, const RingLanes& l, Index lane, const Pair& c,
                         const kernel::RingLane& p, RingSum& sum, LoadWriter& out) {
   if (l.circle.hard.at[lane] > 0) {
     PairLoads loads;
-    const double gap = one_pair(g, c, p, loads, sum);
-    if (gap < 0) write_loads(p, loads, out);
-    return gap;
+    const PairGap found = one_pair(g, c, p, loads, sum);
+    if (found.gap < 0) write_loads(p, loads, out);
+    return found.sleep;
   }
-  const double gap = l.gap.at[lane];
-  if (!(gap < 0)) return gap;
+  if (!(l.gap.at[lane] < 0)) return l.sleep.at[lane];
   take_lane(g, l, lane, c, sum);
   write_loads(p, {get(l.on_a, lane), get(l.on_b, lane), get(l.on_host_a, lane), get(l.on_host_b, lane)}, out);
-  return gap;
+  return 0;
 }
 
 // Books what ring r has felt, and rings [released, r) that nothing touches.
@@ -234,21 +240,21 @@ inline void close_ring(const RingArguments& g, Index r, RingSum& sum, Index& rel
 
 // The pairs of a batch that may touch, ring by ring.
 inline void take_batch(const RingArguments& g, const RingLanes& lanes, const Pair* pairs, const Index* near,
-                       Index count, double* gap, Index& ring, RingSum& sum, Index& released,
+                       Index count, double* sleep, Index& ring, RingSum& sum, Index& released,
                        LoadWriter& out) {
   for (Index i = 0; i < count; ++i) {
-    gap[i] = lanes.gap.at[i];
+    sleep[i] = lanes.sleep.at[i];
     if (!(lanes.looked_at.at[i] > 0)) continue;
     const Pair& c = pairs[near[i]];
     if (c.with != ring) {
       if (ring >= 0) close_ring(g, ring, sum, released);
       ring = c.with;
     }
-    gap[i] = take_pair(g, lanes, i, c, g.lanes[near[i]], sum, out);
+    sleep[i] = take_pair(g, lanes, i, c, g.lanes[near[i]], sum, out);
   }
 }
 
-Index ring_contacts(const RingArguments& g, const Pair* pairs, const Index* near, Index count, double* gap,
+Index ring_contacts(const RingArguments& g, const Pair* pairs, const Index* near, Index count, double* sleep,
                     kernel::Load* loads) {
   LoadWriter out{loads};
   RingLanes& lanes = *reinterpret_cast<RingLanes*>(g.scratch);
@@ -257,7 +263,7 @@ Index ring_contacts(const RingArguments& g, const Pair* pairs, const Index* near
   for (Index i = 0; i < count; i += lane_capacity) {
     const Index batch = count - i < lane_capacity ? count - i : lane_capacity;
     fill_lanes(g, pairs, near + i, batch, lanes);
-    take_batch(g, lanes, pairs, near + i, batch, gap + i, ring, sum, released, out);
+    take_batch(g, lanes, pairs, near + i, batch, sleep + i, ring, sum, released, out);
   }
   if (ring >= 0) close_ring(g, ring, sum, released);
   close_ring(g, g.ring_count, sum, released);

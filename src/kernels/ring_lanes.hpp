@@ -1,6 +1,7 @@
 // Batches of thread-ring pairs on arrays: what ring_contact.cpp derives, for many pairs at once.
 #pragma once
 #include "kernels/contact_item.hpp"
+#include "kernels/ring_sleep.hpp"
 #include "kernels/segment_circle_lanes.hpp"
 
 namespace cinch::CINCH_ISA {
@@ -20,10 +21,10 @@ struct RingLanes {
   Lane1 held, contact_distance, stiffness, touch_a, touch_b, share_a, share_b, host_share;  // as RingLane
   // between
   Lane3 speed, along_speed, turn;  // of the element's first end and from there to the second, less the ring's
-  Lane1 inverse_length;
+  Lane1 inverse_length, turning;   // 1 / L of the host; of one that turns its ring, infinite at a point
   // out
   Lane3 on_a, on_b, on_host_a, on_host_b, on_ring, torque;
-  Lane1 gap, potential, power, couple_power, host_use, thread_use;
+  Lane1 gap, sleep, potential, power, couple_power, host_use, thread_use;
   Lane1 looked_at;  // 1: touches or is hard
 };
 static_assert(sizeof(RingLanes) <= sizeof(double) * kernel::ring_scratch);
@@ -71,6 +72,7 @@ inline void motion_lanes(RingLanes& l, Index count) {
     const double reciprocal = 1 / length;
     const double inverse = length > 0 ? reciprocal : 0.0;  // a host folded to a point: no normal, no contact
     l.inverse_length.at[i] = inverse;
+    l.turning.at[i] = l.held.at[i] > 0 ? 0.0 : reciprocal;
     c.normal.x[i] = inverse * hx, c.normal.y[i] = inverse * hy, c.normal.z[i] = inverse * hz;
     c.start.x[i] = l.place_a.x[i] - 0.5 * (l.host_a.x[i] + l.host_b.x[i]);
     c.start.y[i] = l.place_a.y[i] - 0.5 * (l.host_a.y[i] + l.host_b.y[i]);
@@ -144,6 +146,7 @@ inline void contact_lanes(const kernel::RingArguments& g, RingLanes& l, Index co
     l.power.at[i] = damper_power(force - elastic, thickening, rate, g.contact.step);
     l.couple_power.at[i] = lost * (force * turning);
     l.gap.at[i] = gap;
+    l.sleep.at[i] = ring_sleep(gap, c.radius.at[i], l.turning.at[i]);
     l.host_use.at[i] = kappa * most * most * l.host_share.at[i];
     l.thread_use.at[i] = thread_share(kappa, t, l.share_a.at[i], l.share_b.at[i]);
     const double hard = c.hard.at[i] + (gap < 0 ? ends : 0.0) + (distance > 0 ? 0.0 : 1.0);

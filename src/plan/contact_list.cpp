@@ -69,6 +69,12 @@ Vec3 ring_center(const State& state, const kernel::RingGeometry& ring) {
   return 0.5 * Vec3(state.x[a] + state.x[b], state.y[a] + state.y[b], state.z[a] + state.z[b]);
 }
 
+double distance(const State& state, Index a, Index b) {
+  return Vec3(state.x[at(b)] - state.x[at(a)], state.y[at(b)] - state.y[at(a)],
+              state.z[at(b)] - state.z[at(a)])
+      .norm();
+}
+
 // Position of an element in the set.
 Index position_in(const Archive& archive, const ContactSet& set, Index element) {
   const auto found = std::lower_bound(set.elements.begin(), set.elements.end(), element);
@@ -120,11 +126,7 @@ void begin_tallies(std::vector<kernel::BallTally>& tallies, std::size_t pairs) {
 ContactList::ContactList(const Model& model, double margin, int threads)
     : margin_(margin > 0 ? margin : automatic_margin(model)),
       trees_(model.contact_sets.size()),
-      searches_(at(threads)) {
-  for (std::size_t r = 0; r < model.rings.size(); ++r)
-    if (model.ring_host_length[r] > 0)
-      turning_ = std::max(turning_, 1 + model.rings[r].radius / model.ring_host_length[r]);
-}
+      searches_(at(threads)) {}
 
 void ContactList::rebuild(const Model& model, State& state) {
   ++rebuilds_;
@@ -133,6 +135,7 @@ void ContactList::rebuild(const Model& model, State& state) {
   find_ring_pairs(model, state);
   find_ball_pairs(model, state);
   find_longest_approach();
+  measure_hosts(model, state, 0);
   for (std::size_t b = 0; b < model.balls.size(); ++b)
     begin_tallies(state.balls[b], at(ball_begin[b + 1] - ball_begin[b]));
 }
@@ -161,6 +164,23 @@ void ContactList::find_longest_approach() {
   longest_approach_ = std::numeric_limits<double>::infinity();
   for (const kernel::Pair& pair : pairs)
     longest_approach_ = std::min(longest_approach_, jump_share * pair.contact_distance);
+}
+
+void ContactList::measure_hosts(const Model& model, const State& state, double motion) {
+  greatest_turning_ = inverse_shortest_host_ = 0, measured_at_ = motion;
+  for (std::size_t r = 0; r < model.rings.size(); ++r) {
+    const kernel::RingGeometry& ring = model.rings[r];
+    if (ring.a == ring.b || ring_begin[r] == ring_begin[r + 1]) continue;
+    const double inverse = 1 / distance(state, ring.a, ring.b);  // infinite where it is folded to a point
+    greatest_turning_ = std::max(greatest_turning_, ring.radius * inverse);
+    inverse_shortest_host_ = std::max(inverse_shortest_host_, inverse);
+  }
+}
+
+// A host of length L is at least L - m long after a motion m: R / (L - m) is (R / L) / (1 - m / L) at most.
+bool ContactList::may_jump(double approach, double motion) const {
+  const double left = 1 - (motion - measured_at_) * inverse_shortest_host_;
+  return !(left > 0 && approach * (left + greatest_turning_) <= longest_approach_ * left);
 }
 
 // Rings' pairs first, then those of the balls, without gaps.

@@ -30,12 +30,12 @@ class ContactList {
   void transfer(Archive& archive, const Model& model);
 
   double margin() const { return margin_; }
-  /// A ring and a thread come closer by at most so many times the way of the fastest node: wires of rings
-  /// turn with the elements that carry them, which may be shorter than the rings but, so it is taken, not
-  /// than at rest. Balls stand still.
-  double ring_approach() const { return 2 * turning_; }
-  /// No pair that approaches by less within a step can pass through each other unnoticed, m.
-  double longest_approach() const { return longest_approach_; }
+  /// False where no pair can have passed through each other unnoticed in a step that let two nodes come
+  /// closer by `approach` (m) and led to `motion` (m, as of NearContacts). Wires turn with the hosts of their
+  /// rings, the faster the shorter those are.
+  bool may_jump(double approach, double motion) const;
+  /// Takes hosts as long as they are now: motion since then can have made them shorter, for may_jump().
+  void measure_hosts(const Model& model, const State& state, double motion);
   std::int64_t rebuilds() const { return rebuilds_; }
   std::int64_t pairs_tested() const;
   std::size_t memory() const;  ///< bytes, see memory.hpp
@@ -59,10 +59,14 @@ class ContactList {
 
   void find_longest_approach();
 
-  double margin_, turning_ = 1;
-  double longest_approach_ = std::numeric_limits<double>::infinity();
-  std::vector<BoxTree> trees_;    ///< contact set
-  std::vector<Search> searches_;  ///< thread
+  double margin_;
+  double longest_approach_ = std::numeric_limits<double>::infinity();  ///< m, unnoticed
+  // of rings with pairs, on hosts
+  double greatest_turning_ = 0;       ///< radius over the host's length
+  double inverse_shortest_host_ = 0;  ///< 1/m
+  double measured_at_ = 0;            ///< motion, m
+  std::vector<BoxTree> trees_;        ///< contact set
+  std::vector<Search> searches_;      ///< thread
   std::int64_t rebuilds_ = 0;
 };
 

@@ -23,7 +23,6 @@ LocalContacts all_contacts(const Model& model, const ContactList& list, State& s
   LocalContacts out;
   out.pairs = list.pairs;
   out.ball_begin = list.ball_begin.front();
-  out.ring_approach = list.ring_approach();
   out.rings = model.rings;
   for (std::size_t r = 0; r < state.rings.size(); ++r)
     out.ring_tallies.push_back(model.slides(r) ? nullptr : &state.rings[r]);
@@ -62,7 +61,6 @@ void hand_out(const Model& model, const ContactList& list, State& state, const s
     out.ring_tallies.push_back(own(ring.a) ? &state.rings[r] : nullptr);
   }
   out.ball_begin = static_cast<Index>(out.pairs.size());
-  out.ring_approach = list.ring_approach();
   out.ball_tallies.assign(out.pairs.size(), nullptr);
   append_centers(model, out);
   for (Index i = list.ball_begin.front(); i < static_cast<Index>(list.pairs.size()); ++i) {

@@ -57,7 +57,7 @@ std::size_t ContactList::memory() const {
 
 std::size_t NearContacts::memory() const {
   return ring_tallies_.memory() + ball_tallies_.memory() +
-         bytes_of(contacts_.pairs, lanes_, asleep_, near_, awake_, gap_, loads_);
+         bytes_of(contacts_.pairs, lanes_, asleep_, near_, awake_, sleep_, loads_);
 }
 
 std::size_t SlidingJoints::memory() const {

@@ -11,7 +11,8 @@ namespace {
 /// Of the motion that closes a gap: places round off in each step, so that what flies straight at a ball
 /// would be seen a step later than by one who has just woken up, as after a restart.
 constexpr double sleep_share = 0.9;
-constexpr double window_share = 0.03;  ///< of the margin: bench_contact.cpp measures it
+constexpr double motion_per_ball_gap = 2;  ///< balls stand still
+constexpr double window_share = 0.03;      ///< of the margin: bench_contact.cpp measures it
 
 kernel::RingLane lane_of(const kernel::Pair& pair, const kernel::RingGeometry& ring, const double* share) {
   const bool held = ring.a == ring.b;
@@ -48,7 +49,7 @@ void NearContacts::renew(LocalContacts contacts, double margin, const double* sh
   near_until_ = -std::numeric_limits<double>::infinity();
   asleep_.assign(contacts_.pairs.size(), -std::numeric_limits<double>::infinity());
   for (auto* list : {&near_, &awake_}) list->resize(contacts_.pairs.size() + 1);
-  gap_.resize(contacts_.pairs.size());
+  sleep_.resize(contacts_.pairs.size());
   loads_.resize(4 * contacts_.pairs.size());
   load_count_ = 0;
 }
@@ -100,17 +101,17 @@ void NearContacts::evaluate(const NodeView& n, const StepPlan& plan, double time
   load_count_ = 0;
   if (plan.rings)
     load_count_ = kernels_.ring_contacts(rings, contacts_.pairs.data(), awake_.data(), awake_rings_,
-                                         gap_.data(), loads_.data());
+                                         sleep_.data(), loads_.data());
   contact.alpha = plan.alpha_target;
   const kernel::BallArguments balls{contact, contacts_.centers.data(), ball_tallies_.data()};
   if (plan.balls)
     load_count_ += kernels_.ball_contacts(balls, contacts_.pairs.data(), awake_.data() + awake_rings_,
-                                          awake_count_ - awake_rings_, gap_.data() + awake_rings_,
+                                          awake_count_ - awake_rings_, sleep_.data() + awake_rings_,
                                           loads_.data() + load_count_);
   evaluated_ += awake_count_;
   for (std::size_t i = 0; i < static_cast<std::size_t>(awake_count_); ++i) {
-    const double motion_per_gap = i < static_cast<std::size_t>(awake_rings_) ? 1.0 : contacts_.ring_approach;
-    asleep_[static_cast<std::size_t>(awake_[i])] = motion + sleep_share * motion_per_gap * gap_[i];
+    const double motions = i < static_cast<std::size_t>(awake_rings_) ? 1.0 : motion_per_ball_gap;
+    asleep_[static_cast<std::size_t>(awake_[i])] = motion + sleep_share * motions * sleep_[i];
   }
 }
 

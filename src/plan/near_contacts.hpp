@@ -2,9 +2,9 @@
 // forces of those that touch.
 //
 // The greatest speed tells how much two surfaces approach each other at most, so a pair with a gap need not
-// be looked at until that much motion has gone by. Pairs sleep accordingly; those that could touch within a
-// short window of motion are near and are evaluated every step. Sleeping pairs do not touch, so the forces
-// are those of all pairs.
+// be looked at until that much motion has gone by: how much, its own ring's host decides as it lies then
+// (ring_sleep.hpp). Pairs sleep accordingly; those that could touch within a short window of motion are near
+// and are evaluated every step. Sleeping pairs do not touch, so the forces are those of all pairs.
 #pragma once
 #include <span>
 #include <vector>
@@ -19,7 +19,6 @@ namespace cinch {
 struct LocalContacts {
   std::vector<kernel::Pair> pairs;
   Index ball_begin = 0;                          ///< first pair with a ball
-  double ring_approach = 2;                      ///< see ContactList: motion over the way of the fastest node
   std::vector<kernel::RingGeometry> rings;       ///< ring
   std::vector<kernel::RingTally*> ring_tallies;  ///< ring: null where another thread books it
   std::vector<double> centers;                   ///< ball x 3, m
@@ -42,9 +41,9 @@ class NearContacts {
   void take() { ring_tallies_.take(), ball_tallies_.take(); }
   void give() const { ring_tallies_.give(), ball_tallies_.give(); }
 
-  /// Evaluates the contacts at `time`, when `motion` (m: by which rings and threads can have approached each
-  /// other) of the margin has gone by. Books over `booked_dt` s (0: only what is of this moment). `loads`
-  /// holds the forces then.
+  /// Evaluates the contacts at `time`, when `motion` (m: by which two nodes can have come closer, twice the
+  /// way of the fastest) of the margin has gone by. Books over `booked_dt` s (0: only what is of this
+  /// moment). `loads` holds the forces then.
   void evaluate(const NodeView& nodes, const StepPlan& plan, double time, double booked_dt, double motion);
 
   /// All nodes that may feel one.
@@ -75,7 +74,7 @@ class NearContacts {
   std::size_t near_count_ = 0;
   std::vector<Index> awake_;                 ///< those that could touch now
   Index awake_count_ = 0, awake_rings_ = 0;  ///< all, and those with rings, which come first
-  std::vector<double> gap_;                  ///< awake pair, m
+  std::vector<double> sleep_;                ///< awake pair: motion that it needs to touch; of balls the gap
   std::vector<kernel::Load> loads_;          ///< room for all
   Index load_count_ = 0;
   std::int64_t evaluated_ = 0;

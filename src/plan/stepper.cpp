@@ -131,7 +131,9 @@ void Stepper::transfer(Archive& archive, State& state) {
     if (static_cast<Index>(state.balls[b].size()) !=
         1 + contacts_.ball_begin[b + 1] - contacts_.ball_begin[b])
       archive.refuse("targets", "does not fit the pairs of contacts");
-  if (archive.restoring() && !pieces_.empty()) hand_out_contacts(state);
+  if (!archive.restoring()) return;
+  contacts_.measure_hosts(*model_, state, motion_);
+  if (!pieces_.empty()) hand_out_contacts(state);
 }
 
 void Stepper::hand_out_contacts(State& state) {
@@ -153,16 +155,14 @@ void Stepper::renew_contacts(State& state) {
   search_ += clock_seconds() - begin;
 }
 
-// By which two surfaces come closer in one step, at most, m.
-double Stepper::approach(double greatest) const {
-  return contacts_.ring_approach() * plan_.dt * std::sqrt(greatest);
-}
+// By which two nodes come closer in one step, at most, m.
+double Stepper::approach(double greatest) const { return 2 * plan_.dt * std::sqrt(greatest); }
 
 void Stepper::judge(double greatest, Progress& p) const {
   const double approached = approach(greatest);
   p.motion += approached;
   if (!(p.motion < contacts_.margin())) p.verdict = Verdict::renew_contacts;
-  if (approached > contacts_.longest_approach()) p.verdict = Verdict::look_closer;
+  if (contacts_.may_jump(approached, p.motion)) p.verdict = Verdict::look_closer;
   if (greatest > plan_.speed_limit * plan_.speed_limit) p.verdict = Verdict::unhealthy;
 }
 
@@ -179,15 +179,17 @@ bool Stepper::fly(State& state, std::int64_t most, Progress& p) {
   const double wakes = plan_.contacts() ? asleep_until() : HUGE_VAL;
   std::int64_t steps = p.motion < wakes ? flight_->look(state, pieces_, most) : 0;
   const double greatest = flight_->greatest(), approached = approach(greatest);
-  const bool fast = plan_.contacts() && (approached > contacts_.longest_approach() ||
-                                         greatest > plan_.speed_limit * plan_.speed_limit);
+  const auto may_jump = [&] { return contacts_.may_jump(approached, p.motion + approached); };
+  if (plan_.contacts() && may_jump()) contacts_.measure_hosts(*model_, state, p.motion);
+  const bool fast = plan_.contacts() && (may_jump() || greatest > plan_.speed_limit * plan_.speed_limit);
   if (steps == 0 || fast) {  // single steps find what touches or is too fast
     flight_->put_off(pieces_);
     return false;
   }
   if (plan_.contacts()) {
     std::int64_t done = 0;
-    for (; done < steps && p.motion < wakes && p.motion < contacts_.margin(); ++done) p.motion += approached;
+    for (; done < steps && p.motion < wakes && p.motion < contacts_.margin() && !may_jump(); ++done)
+      p.motion += approached;
     if (!(p.motion < contacts_.margin())) p.verdict = Verdict::renew_contacts;
     steps = done;
   }
@@ -280,8 +282,9 @@ void Stepper::advance(State& state, std::int64_t steps) {
   }
 }
 
-// Some node moves fast: whether one near a ring or ball does.
+// Some node moves fast, or some host may have become short: whether one near a ring or ball does or has.
 void Stepper::look_closer(const State& state) {
+  contacts_.measure_hosts(*model_, state, motion_);
   if (plan_.allow_unstable) return;
   jump_ = find_jump(*model_, state, contacts_, plan_.dt);
   if (jump_) healthy_ = false;
