@@ -455,4 +455,13 @@ TEST(ForceReduction, ForcesOfANetFitIntoTheCache) {
         << "of 320,800 elements: rows stay a block long, columns a row and a block";
 }
 
+// A side of 64 elements is a run, and there are 1804 of them.
+TEST(ForceReduction, ShortRunsTakeNoMoreThanTheirForces) {
+  for (const auto& [columns, rows] : {std::pair{4, 200}, std::pair{200, 4}}) {
+    const Graph g = test::net_graph(columns, rows, 64);
+    const ForceReduction lists = reduce_forces(cut(g), Numbering::all(g.nodes), {});
+    EXPECT_LT(lists.force_count, 3 * static_cast<Index>(g.size())) << g.name;
+  }
+}
+
 }  // namespace

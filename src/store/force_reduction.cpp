@@ -53,10 +53,10 @@ class Builder {
 
  private:
   struct Layout {
-    Index first;      ///< where the force of the first node of a block (of the run, in a ring) goes
+    Index first;      ///< where the force of the first node of a block (short, ring: of the run) goes
     Index period;     ///< of a ring
     Index parameter;  ///< of the run's first group
-    bool ring;
+    bool short_run, ring;
   };
   struct OfBlock {
     std::vector<kernel::Patch> patches;
@@ -101,14 +101,24 @@ class Builder {
       const Index first = first_group_node(run);
       const bool one_block = block_of(first) == block_of(covered(run) - 1);
       l.ring = run.offset > nearby && !one_block;
+      l.short_run = !l.ring && covered(run) - first <= longest_;
       l.period = up(run.offset + longest_);
       l.first = out_.force_count + (l.ring ? 0 : up(run.offset));
-      out_.force_count = l.first + (l.ring ? std::min(l.period, lanes * group_count(run)) : longest_ + lanes);
+      out_.force_count = l.first + room(run, l);
       layout_.push_back(l);
     }
   }
 
-  // A run whose ends are near each other: every block has its forces in the same place.
+  // Of a run's forces, behind its first one. A net may have as many runs as sides, and most are short.
+  Index room(const Run& run, const Layout& l) const {
+    const Index computed = lanes * group_count(run);
+    if (l.ring) return std::min(l.period, computed);
+    if (l.short_run) return std::max(computed, up(covered(run) - first_group_node(run)));
+    return longest_ + lanes;
+  }
+
+  // A run whose ends are near each other: every block has its forces in the same place, but for a short one,
+  // whose forces each have their own.
   void add_run(std::size_t r) {
     const Run& run = topology_.runs[r];
     const Index begin = first_group_node(run), computed = begin + lanes * group_count(run),
@@ -116,10 +126,10 @@ class Builder {
     const std::size_t first_block = block_of(begin), last_block = block_of(end - 1);
     for (std::size_t b = first_block; b <= last_block; ++b) {
       const Index low = std::max(begin, edge(b)), high = std::min(end, edge(b + 1));
-      const Index place = layout_[r].first - edge(b);  // of node 0
+      const Index place = layout_[r].first - (layout_[r].short_run ? begin : edge(b));  // of node 0
       const Index stop = std::min(computed, up(edge(b + 1)));
       if (low < stop) add_span(r, b, low, (stop - low) / lanes, place + low);
-      if (first_block != last_block) {  // else all that is not computed is zero for ever
+      if (!layout_[r].short_run) {  // else all that is not computed is zero for ever
         const Index before = edge(b) - edge(b == 0 ? 0 : b - 1);
         of_block_[b].patches.push_back({place + low - run.offset,
                                         b == first_block ? -1 : place + low - run.offset + before,

@@ -10,7 +10,8 @@
 // end lies further on. So a force need not outlive the way to its upper end, and the buffer stays in the
 // second-level cache; most forces of a chain, which its pass may keep in registers, are never written at all.
 // Each run has a stretch of the buffer as long as a block, with room before it for the last forces of the
-// block before (a ring as long as that way where the two ends lie far apart).
+// block before (a ring as long as that way where the two ends lie far apart; a shorter run just room for its
+// forces).
 #pragma once
 #include <vector>
 
