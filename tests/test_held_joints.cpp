@@ -4,6 +4,7 @@
 #include <filesystem>
 
 #include "base/error.hpp"
+#include "plan/piece.hpp"
 #include "plan/stable_step.hpp"
 #include "support/scenes.hpp"
 
@@ -121,6 +122,27 @@ TEST(HeldJoints, CouplesOfSupportsAreBookedForAsLongAsTheyHold) {
   const double size = Vec3(couple[0], couple[1], couple[2]).norm();
   EXPECT_GT(size, 1e-6);
   EXPECT_LT(sim.summary().angular_momentum_drift.value(), 1e-4 * size);
+}
+
+// ---- looks
+
+// Another thread may still be taking the joints from the state.
+TEST(HeldJoints, ALookLeavesThemInTheStateUntilItIsOver) {
+  Simulation sim(plucked_thread(1e-5, 1), 1);
+  sim.look();
+  sim.advance_to(100);
+  State& state = sim.state();
+  const double before = state.joints.at(0).tension;
+  Piece piece(sim.model(), sim.phase().plan,
+              node_share(sim.model(), sim.phase().plan.dt, sim.phase().plan.joint_steps));
+  Glance out;
+  out.elastic.assign(at(sim.model().ledger_rows() * kernel::lanes), 0.0);
+  piece.glance(state, 0, out);
+  EXPECT_EQ(state.joints[0].tension, before);
+  piece.tell_joints(state);
+  EXPECT_NE(state.joints[0].tension, before);
+  sim.look();
+  EXPECT_EQ(sim.state().joints[0].tension, state.joints[0].tension);
 }
 
 // ---- how long

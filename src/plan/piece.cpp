@@ -437,7 +437,6 @@ void Piece::glance(State& state, double motion, Glance& out) {
   if (plan_.joints) {
     joints_.glance(view(), plan_, state.step);
     joints_.push(view(), plan_, motion);
-    joints_.tell(state);
   }
   lend(out);
   const auto constraints = static_cast<Index>(constraints_.size());
@@ -456,6 +455,10 @@ void Piece::glance(State& state, double motion, Glance& out) {
   for (std::size_t f = 0; !whole_ && f < 3; ++f)
     for (std::size_t i = 0; i < numbering_.global.size(); ++i)
       if (numbering_.layer[i] == 0) out.gain[f][at(numbering_.global[i])] = glance_fields_[3 + f][i];
+}
+
+void Piece::tell_joints(State& state) const {
+  if (plan_.joints) joints_.tell(state);
 }
 
 void Piece::append_loads(std::vector<kernel::Load>& loads) const {

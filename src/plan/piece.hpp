@@ -60,6 +60,9 @@ class Piece {
   /// What one step from this state would add to the speeds of its own nodes; moves and books nothing. With
   /// several pieces `out` has its final size already.
   void glance(State& state, double motion, Glance& out);
+  /// What the joints booked here felt then, into the state: when all pieces have glanced, as each takes from
+  /// there what it shares with others.
+  void tell_joints(State& state) const;
   /// Time, at most `enough`, for which none of its elements would pull if nothing else did, s; 0 where one
   /// does. They count as shorter than they are, by `spare` of their length.
   double time_to_pull(double spare, double enough) const;

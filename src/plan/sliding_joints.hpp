@@ -29,7 +29,8 @@ class SlidingJoints {
   void take(State& state, std::size_t nodes);
   /// Hands back the joints that are booked here, and their forces.
   void give(State& state) const;
-  /// Hands back what they feel, but not how they moved: after an evaluation that was but a look.
+  /// Hands back what they feel, but not how they moved: after an evaluation that was but a look. Others may
+  /// still be taking the same joints from the state: to be called when all threads have.
   void tell(State& state) const;
 
   /// Evaluates the forces that are to hold from `step` on, and books until they are evaluated again.

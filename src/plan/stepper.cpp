@@ -305,7 +305,10 @@ void Stepper::glance(State& state, Glance& out) {
   out.due.assign(plan_.damped && plan_.ledger ? rows : 0, 0.0);
   each_by_its_thread([&](int p) { pieces_[at(p)]->glance(state, motion_, out); });
   out.loads.clear();
-  for (const auto& piece : pieces_) piece->append_loads(out.loads);
+  for (const auto& piece : pieces_) {
+    piece->tell_joints(state);
+    piece->append_loads(out.loads);
+  }
 }
 
 }  // namespace cinch
