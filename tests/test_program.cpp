@@ -374,8 +374,10 @@ TEST_F(Program, MoreThreadsThanProcessorsAreWarnedOf) {
 }
 
 TEST_F(Program, AnUnknownInstructionSetIsRefused) {
-  EXPECT_EQ(run({"run", "tiny.toml", "--out", "r"}, "export CINCH_ISA=v9; "), 2);
-  EXPECT_TRUE(has(err(), "CINCH_ISA=v9") && has(err(), "base")) << err();
+  for (const char* threads : {"1", "2"}) {
+    EXPECT_EQ(run({"run", "tiny.toml", "--out", "r", "--threads", threads}, "export CINCH_ISA=v9; "), 2);
+    EXPECT_TRUE(has(err(), "CINCH_ISA=v9") && has(err(), "base")) << err();
+  }
 }
 
 TEST_F(Program, HelpAndVersion) {

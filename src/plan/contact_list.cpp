@@ -4,6 +4,7 @@
 #include <limits>
 #include <numeric>
 
+#include "base/caught.hpp"
 #include "kernels/contact_law.hpp"
 
 namespace cinch {
@@ -213,17 +214,20 @@ void ContactList::find_ring_pairs(const Model& model, const State& state) {
   const std::size_t rings = model.rings.size(), shares = rings < worth_sharing ? 1 : searches_.size();
   const int threads = static_cast<int>(shares);
   ring_begin.assign(rings + 1, 0);
+  Caught caught;
 #pragma omp parallel for num_threads(threads) schedule(static, 1) if (threads > 1)
-  for (std::size_t share = 0; share < shares; ++share) {
-    Search& search = searches_[share];
-    std::vector<kernel::Pair>& found = share == 0 ? pairs : search.pairs;
-    found.clear();
-    for (std::size_t r = rings * share / shares; r < rings * (share + 1) / shares; ++r) {
-      const std::size_t before = found.size();
-      find_near_ring(model, state, r, search, found);
-      ring_begin[r + 1] = static_cast<Index>(found.size() - before);
-    }
-  }
+  for (std::size_t share = 0; share < shares; ++share)
+    caught.run([&] {
+      Search& search = searches_[share];
+      std::vector<kernel::Pair>& found = share == 0 ? pairs : search.pairs;
+      found.clear();
+      for (std::size_t r = rings * share / shares; r < rings * (share + 1) / shares; ++r) {
+        const std::size_t before = found.size();
+        find_near_ring(model, state, r, search, found);
+        ring_begin[r + 1] = static_cast<Index>(found.size() - before);
+      }
+    });
+  caught.rethrow();
   std::partial_sum(ring_begin.begin(), ring_begin.end(), ring_begin.begin());
   for (std::size_t share = 1; share < shares; ++share)
     pairs.insert(pairs.end(), searches_[share].pairs.begin(), searches_[share].pairs.end());

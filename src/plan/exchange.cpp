@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <thread>
 
+#include "base/caught.hpp"
+
 namespace cinch {
 namespace {
 
@@ -75,13 +77,17 @@ void Exchange::set_up(const std::vector<std::unique_ptr<Piece>>& pieces, const s
   received_.resize(count);
   partners_.assign(count, {});
   std::vector<std::vector<bool>> moved(count);  // by piece and node
+  Caught caught;
 #pragma omp parallel num_threads(threads)
   {
 #pragma omp for schedule(static, 1)
-    for (std::size_t p = 0; p < count; ++p) moved[p] = pieces[p]->moved_by_speed();
+    for (std::size_t p = 0; p < count; ++p) caught.run([&] { moved[p] = pieces[p]->moved_by_speed(); });
+    const bool complete = !caught.any();
 #pragma omp for schedule(static, 1)
-    for (std::size_t p = 0; p < count; ++p) received_[p] = channels_to(p, pieces, owner, moved);
+    for (std::size_t p = 0; p < count; ++p)
+      if (complete) caught.run([&] { received_[p] = channels_to(p, pieces, owner, moved); });
   }
+  caught.rethrow();
   for (const Channels& channels : received_)
     for (const auto& channel : channels) {
       sent_[at(channel->sender)].push_back(channel.get());

@@ -121,6 +121,7 @@ Simulation::Simulation(const Scene& scene, Preparation preparation, int threads,
 }
 
 void Simulation::make_ready(int threads) {
+  kernels();  // throws where CINCH_ISA is wrong: not within a region of threads
   omp_set_dynamic(0);
   const Index elements = preparation_.whole().elements;
   const bool tries = threads == 0 && ThreadChoice::worth_it(elements);

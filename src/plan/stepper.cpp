@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/caught.hpp"
 #include "base/error.hpp"
 #include "plan/contact_shares.hpp"
 #include "plan/core_binding.hpp"
@@ -48,11 +49,14 @@ void Stepper::use_threads(int threads, State& state) {
 template <class Visit>
 void Stepper::each_by_its_thread(Visit visit) const {
   if (threads_ == 1) return visit(0);  // a region of one thread takes a microsecond, too
+  Caught caught;
 #pragma omp parallel for num_threads(threads_) schedule(static, 1)
-  for (int p = 0; p < threads_; ++p) {
-    const CoreBinding bound(bind_, p, threads_);
-    visit(p);
-  }
+  for (int p = 0; p < threads_; ++p)
+    caught.run([&] {
+      const CoreBinding bound(bind_, p, threads_);
+      visit(p);
+    });
+  caught.rethrow();
 }
 
 // Deeper ghosts let threads meet less often, as long as they are few beside a thread's own nodes.
@@ -199,11 +203,11 @@ bool Stepper::fly(State& state, std::int64_t most, Progress& p) {
   return true;
 }
 
-// The steps of one thread; every thread returns the same. `from` is what the run begins with.
+// The steps of one thread, whose piece has taken the state; every thread returns the same. `from` is what the
+// run begins with.
 Stepper::Progress Stepper::run_thread(State& state, std::int64_t steps, int thread, Progress from) {
   const bool alone = threads_ == 1, flies = alone && flight_, contacts = plan_.contacts();
   Piece& piece = *pieces_[at(thread)];
-  piece.take(state);
   const std::int64_t first = state.step, levels = piece.levels();
   StageSeconds unread{};  // of the other threads
   StageSeconds& seconds = thread == 0 ? sampled_ : unread;
@@ -233,7 +237,10 @@ Stepper::Progress Stepper::run_thread(State& state, std::int64_t steps, int thre
 // Several threads look for free flight before they set out, and come back when the next look is due.
 Stepper::Progress Stepper::run(State& state, std::int64_t steps) {
   Progress from{0, windows_, motion_, Verdict::go_on};
-  if (threads_ == 1) return run_thread(state, steps, 0, from);
+  if (threads_ == 1) {
+    pieces_[0]->take(state);
+    return run_thread(state, steps, 0, from);
+  }
   if (!flight_) return run_threads(state, steps, from);
   if (flight_->due(steps)) {
     StageClock clock(from.windows++, sampled_);
@@ -249,17 +256,23 @@ Stepper::Progress Stepper::run(State& state, std::int64_t steps) {
   return reached;
 }
 
-// One parallel region over as many steps as possible.
+// One parallel region over as many steps as possible. To take the state may need memory, the steps do not: a
+// thread that left them would keep the others waiting.
 Stepper::Progress Stepper::run_threads(State& state, std::int64_t steps, const Progress& from) {
   Progress reached = from;
+  Caught caught;
 #pragma omp parallel num_threads(threads_)
   {
-    const CoreBinding bound(bind_, omp_get_thread_num(), threads_);
+    const int thread = omp_get_thread_num();
+    const CoreBinding bound(bind_, thread, threads_);
+    caught.run([&] { pieces_[at(thread)]->take(state); });
+#pragma omp barrier
     // fewer threads than pieces would wait for ever; all see the same number and none enters the steps
-    const bool enough = omp_get_num_threads() == threads_;
-    const Progress mine = enough ? run_thread(state, steps, omp_get_thread_num(), from) : from;
-    if (omp_get_thread_num() == 0) reached = mine;
+    const bool enough = omp_get_num_threads() == threads_ && !caught.any();
+    const Progress mine = enough ? run_thread(state, steps, thread, from) : from;
+    if (thread == 0) reached = mine;
   }
+  caught.rethrow();
   if (reached.done == 0)
     throw Error(ExitCode::internal, "error: OpenMP gave fewer threads than it did at the start");
   return reached;
