@@ -6,6 +6,8 @@
 
 #include "base/error.hpp"
 #include "plan/health.hpp"
+#include "store/fields.hpp"
+#include "support/memory_archive.hpp"
 #include "support/scenes.hpp"
 
 namespace {
@@ -97,6 +99,98 @@ TEST(Health, SpeedsUpToTheLimitAreAllowed) {
   EXPECT_FALSE(speeds_allowed(state, 4.99));
   state.vz.back() = std::numeric_limits<double>::infinity();
   EXPECT_FALSE(speeds_allowed(state, 1e100));
+}
+
+// ---- pauses
+
+// A run that goes wrong, as `cinch run` leaves it, having paused every so many steps.
+struct Left {
+  std::int64_t step;
+  std::uint64_t state;
+  std::string fault;
+  bool operator==(const Left&) const = default;
+};
+
+Left left_by(const Scene& scene, int threads, std::int64_t stretch) {
+  Simulation sim(scene, threads);
+  constexpr std::int64_t end = 20000;
+  std::string fault;
+  try {
+    while (sim.step() < end) sim.advance_towards(end, sim.step() + stretch);
+  } catch (const NumericalError& error) {
+    fault = error.what();
+    sim.step_back();
+  }
+  return {sim.step(), state_hash(sim.state()), fault};
+}
+
+// A thread that is pressed through a ball after 0.1 s.
+Scene pressed_through() {
+  return thread_scene(1e9, 0.106, R"(
+elements = 40
+points_m = [[-0.5, 0, 3.06], [0.5, 0, 3.06]]
+velocity_m_s = [0, 0, -30]
+start = { mass_kg = 1 }
+end = { mass_kg = 1 }
+[target.ball]
+center_m = [0, 0, 0]
+radius_m = 0.05
+youngs_modulus_Pa = 1e4
+)");
+}
+
+// One that falls and is too fast after 0.1 s; it touches nothing, so that speeds are seen at looks alone.
+Scene too_fast() {
+  Scene scene = thread_scene(1e9, 0.106, R"(
+elements = 40
+points_m = [[-0.5, 0, 0], [0.5, 0, 0]]
+[gravity]
+acceleration_m_s2 = [0, 0, -9.81]
+)");
+  scene.time.speed_limit = 1;
+  scene.time.step = 1e-5;
+  return scene;
+}
+
+TEST(Health, WhatAFailedRunLeavesDoesNotHangOnWhereItPaused) {
+  for (const Scene& scene : {too_fast(), pressed_through()}) {
+    const Left whole = left_by(scene, 1, 20000);
+    EXPECT_NE(whole.fault, "");
+    EXPECT_GT(whole.step, 0) << "it fails late enough to have been looked at";
+    for (const std::int64_t stretch : {64, 1000, 3001}) {
+      SCOPED_TRACE(stretch);
+      const Left paused = left_by(scene, 1, stretch);
+      EXPECT_EQ(paused.step, whole.step);
+      EXPECT_EQ(paused.fault, whole.fault);
+      EXPECT_EQ(paused.state, whole.state);
+    }
+  }
+}
+
+// ... nor on where it began again: there are no other looks.
+TEST(Health, AfterARestartStatesAreKeptAtTheSameSteps) {
+  const Scene scene = pressed_through();
+  const Left whole = left_by(scene, 1, 20000);
+  Simulation first(scene, 1);
+  first.advance_to(std::max<std::int64_t>(whole.step - 77, 1));
+  MemoryArchive saved;
+  first.save(saved);
+  MemoryArchive from(saved.entries);
+  Simulation next(scene, prepare(scene), 1, from);
+  EXPECT_THROW(next.advance_to(20000), NumericalError);
+  next.step_back();
+  EXPECT_EQ(next.step(), whole.step);
+  EXPECT_EQ(state_hash(next.state()), whole.state);
+}
+
+TEST(Health, APauseCanBeLookedAt) {
+  Scene scene = unstable_net(12);
+  scene.time.step *= 0.2;
+  Simulation sim(scene, 1);
+  sim.state().vy[40] = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_NO_THROW(sim.advance_towards(200, 100));
+  EXPECT_EQ(sim.step(), 100);
+  EXPECT_THROW(sim.check_health(), NumericalError);
 }
 
 // ---- energy from nowhere

@@ -75,10 +75,11 @@ class Run {
       while (simulation_.step() < simulation_.end_step() && stop_signal() == 0) {
         advance(simulation_.end_step());
         record();
-        keep_if_due();
+        if (keep_is_due()) keep_sound();
         recorder_.catch_up();
         progress_.update(simulation_.time(), simulation_.step());
       }
+      if (stop_signal() != 0) require_sound();
     } catch (const NumericalError& error) {  // the frames so far and what led there are kept
       status = "failed";
       message = error.what();
@@ -118,18 +119,25 @@ class Run {
     return scene.output.probe_interval > 0 ? scene.output.probe_interval : scene.output.frame_interval;
   }
 
-  // To the next step at which something is due, but no longer than signals and checkpoints may wait.
-  void advance(std::int64_t end) {
-    constexpr double patience = 0.2;  // s
-    const std::int64_t from = simulation_.step();
-    const double t0 = now();
+  // A run that fails ends where all was well.
+  template <class Work>
+  void or_step_back(Work work) {
     try {
-      simulation_.advance_to(
-          std::min({end, frames_.next(), probes_.next(), checkpoints_.next(), from + stretch_}));
+      work();
     } catch (const NumericalError&) {
       simulation_.step_back();
       throw;
     }
+  }
+
+  // To the next step at which something is due, but no longer than signals and checkpoints may wait: there it
+  // pauses, as the clock decides.
+  void advance(std::int64_t end) {
+    constexpr double patience = 0.2;  // s
+    const std::int64_t from = simulation_.step();
+    const double t0 = now();
+    const std::int64_t due = std::min({end, frames_.next(), probes_.next(), checkpoints_.next()});
+    or_step_back([&] { simulation_.advance_towards(due, from + stretch_); });
     const double pace = static_cast<double>(simulation_.step() - from) / std::max(now() - t0, 1e-9);
     stretch_ =
         static_cast<std::int64_t>(std::clamp(pace * patience, 1.0, 2.0 * static_cast<double>(stretch_)));
@@ -155,12 +163,22 @@ class Run {
     simulation_.check_energy(look);  // what showed it is kept
   }
 
-  void keep_if_due() {
+  bool keep_is_due() {
     const OutputSpec& output = scene_.output;
     const bool by_step = checkpoints_.due(simulation_.step());
     const bool by_clock =
         output.checkpoint_run_time > 0 && now() - last_checkpoint_ >= output.checkpoint_run_time;
-    if (output.checkpoint && (by_step || by_clock)) keep();
+    return output.checkpoint && (by_step || by_clock);
+  }
+
+  // Where it pauses nothing has been looked at.
+  void require_sound() {
+    or_step_back([&] { simulation_.check_health(); });
+  }
+
+  void keep_sound() {
+    require_sound();
+    keep();
   }
 
   // What the checkpoint counts on is on the disk before it.

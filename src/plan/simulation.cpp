@@ -260,13 +260,25 @@ void Simulation::close() {
     events_.push_back({time(), "separation", mechanism.name});
 }
 
-void Simulation::advance_to(std::int64_t target) {
-  while (state_.step < target) {
+// Steps at which speeds are looked at and states kept, counted from where the phase began: the same after a
+// restart and however a run was told to go on, so that what a run that fails leaves does not hang on that.
+std::int64_t Simulation::steps_into_interval() const {
+  const std::int64_t begin = closed_phase() ? std::max<std::int64_t>(preparation_.closing_step, 0) : 0;
+  return (state_.step - begin) % health_interval(model().nodes);
+}
+
+void Simulation::advance_towards(std::int64_t target, std::int64_t pause) {
+  while (state_.step < std::min(target, pause)) {
     if (!closed_phase() && state_.step == preparation_.closing_step) close();
-    std::int64_t stop = std::min(target, state_.step + health_interval(model().nodes));
+    const std::int64_t next = state_.step + health_interval(model().nodes) - steps_into_interval();
+    std::int64_t stop = std::min(target, next);
     if (!closed_phase()) stop = std::min(stop, preparation_.closing_step);
-    advance_with_threads_that_pay(stop);
+    advance_with_threads_that_pay(std::min(stop, pause));
+    if (state_.step < stop && stepper_->healthy()) return;  // a pause
     check_health();
+    if (state_.step < next) continue;
+    note_pace();
+    remember();
   }
   if (!closed_phase() && state_.step == preparation_.closing_step) close();
 }
@@ -291,10 +303,6 @@ void Simulation::advance_with_threads_that_pay(std::int64_t stop) {
 
 void Simulation::check_health() {
   overlaps_.blame(preparation_, state_, [this] { find_faults(); });
-  if (state_.step - sound_.step >= health_interval(model().nodes)) {
-    note_pace();
-    remember();
-  }
 }
 
 void Simulation::find_faults() {

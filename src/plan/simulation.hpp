@@ -36,10 +36,15 @@ class Simulation {
 
   /// Advances to `step`; closing happens on the way. Throws NumericalError (node, ring or element, time,
   /// likely cause) and leaves the state of the step that went wrong.
-  void advance_to(std::int64_t step);
+  void advance_to(std::int64_t step) { advance_towards(step, step); }
+  /// The same, but stops at `pause` where that comes first. What a run that fails leaves does not hang on
+  /// where it pauses: nothing is looked at there. Before such a state is kept: check_health().
+  void advance_towards(std::int64_t step, std::int64_t pause);
+  /// Throws NumericalError, as advance_to() does, where something has gone wrong.
+  void check_health();
   /// From the next step on by so many threads, to the same bits.
   void use_threads(int threads);
-  /// After that: back to the last state that was found sound, within some thousand steps before.
+  /// After a NumericalError: back to the last state that was found sound, within some thousand steps before.
   void step_back();
 
   /// How the scene stands now; good until it is advanced or looked at again.
@@ -95,7 +100,7 @@ class Simulation {
   void lay_threads();
   void take_half_step_back();
   void set_back(double steps);
-  void check_health();
+  std::int64_t steps_into_interval() const;
   void find_faults();
   void note_pace();
   void note_losses(const Look& now);
