@@ -78,6 +78,35 @@ TEST_F(Restarted, ElsewhereLeavesWhatItGoesOnFrom) {
   EXPECT_TRUE(has(err(), "other holds a result already")) << err();
 }
 
+TEST_F(Restarted, ElsewhereReplacesAllOfAnOldRun) {
+  const std::string tiny = tiny_case;
+  write("plain.toml", tiny.substr(0, tiny.find("[ring.r1]")));
+  ASSERT_EQ(run({"run", "plain.toml", "--quiet", "--set", "time.end_s=0.0004", "--out", "r"}), 0) << err();
+  ASSERT_EQ(run(begin("0.0008", "other")), 0) << err();
+  for (const char* name : {"other/checkpoint.h5", "other/rings.xdmf"}) ASSERT_TRUE(fs::exists(path(name)));
+  Words elsewhere = go_on("0.001", "r");
+  elsewhere.insert(elsewhere.end(), {"--out", "other", "--overwrite", "--set", "output.checkpoint=false"});
+  ASSERT_EQ(run(elsewhere), 0) << err();
+  EXPECT_EQ(cinch::Result(path("other")).frames(), 11);
+  for (const char* name : {"other/checkpoint.h5", "other/rings.xdmf"}) EXPECT_FALSE(fs::exists(path(name)));
+  EXPECT_TRUE(fs::exists(path("r/checkpoint.h5")));
+}
+
+TEST_F(Restarted, ACheckpointOfAnotherRunIsRefused) {
+  for (const char* name : {"r", "other"}) ASSERT_EQ(run(begin("0.0004", name)), 0) << err();
+  const std::string own = text_of(path("r/checkpoint.h5"));
+  write("r/checkpoint.h5", text_of(path("other/checkpoint.h5")));
+  const std::string before = text_of(path("r/run.vtkhdf"));
+  EXPECT_EQ(run(go_on("0.0006", "r")), 4);
+  EXPECT_TRUE(has(err(), "error: r/checkpoint.h5: does not belong to r/run.vtkhdf, which is of another run"))
+      << err();
+  EXPECT_EQ(text_of(path("r/run.vtkhdf")), before);
+  write("r/checkpoint.h5", own);
+  ASSERT_EQ(run(go_on("0.0006", "r")), 0) << err();
+  write("r/checkpoint.h5", own);  // as a kill before the next one leaves it
+  EXPECT_EQ(run(go_on("0.0008", "r")), 0) << err();
+}
+
 TEST_F(Restarted, WhileSomebodyReadsTheResult) {
   ASSERT_EQ(run(begin("0.001", "whole")), 0) << err();
   ASSERT_EQ(run(begin("0.0004", "r")), 0) << err();

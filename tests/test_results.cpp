@@ -1029,6 +1029,18 @@ TEST(Results, InfoReadsWell) {
     EXPECT_NE(text.str().find(part), std::string::npos) << part << "\n" << text.str();
 }
 
+TEST(Results, KeepsTheIdOfItsRun) {
+  const Scratch scratch;
+  const ResultModel model = small_model(4);
+  {
+    Recorder recorder(scratch.path / "a", model, {.run_id = "one"});
+    recorder.frame(small_frame(model, 0));
+  }
+  EXPECT_EQ(Result(scratch.path / "a").run_id(), "one");
+  record(scratch.path / "old", model, 1);
+  EXPECT_EQ(Result(scratch.path / "old").run_id(), "");
+}
+
 TEST(Results, InfoOfARunWithoutFramesAndLedger) {
   const Scratch scratch;
   Recorder recorder(scratch.path, small_model(5), {});

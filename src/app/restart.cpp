@@ -4,6 +4,7 @@
 #include <array>
 #include <cstdio>
 #include <limits>
+#include <random>
 
 #include "base/error.hpp"
 #include "base/version.hpp"
@@ -49,6 +50,7 @@ void SavedCase::transfer(Archive& archive) {
 
 void Account::transfer(Archive& archive) {
   constexpr std::int64_t most = std::numeric_limits<int>::max();
+  if (archive.holds("account/run_id")) archive.text("account/run_id", run_id);
   archive.whole("account/frames", frames, 0, most);
   archive.whole("account/probe_rows", probe_rows, 0, most);
   archive.value("account/run_time", run_time);
@@ -56,10 +58,29 @@ void Account::transfer(Archive& archive) {
   archive.value("account/writing", writing);
 }
 
+std::string new_run_id() {
+  std::random_device random;
+  char text[17];
+  std::snprintf(text, sizeof text, "%08x%08x", random(), random());
+  return text;
+}
+
 Restart::Restart(const fs::path& path)
     : checkpoint_(path),
       folder_(checkpoint_.path().has_parent_path() ? checkpoint_.path().parent_path() : fs::path(".")),
-      earlier_(folder_) {}
+      earlier_(folder_) {
+  require_same_run();
+}
+
+void Restart::require_same_run() {
+  Account saved;
+  saved.transfer(checkpoint_);
+  if (saved.run_id.empty() || saved.run_id == earlier_.run_id()) return;
+  throw FileError("error: " + checkpoint_.path().string() + ": does not belong to " +
+                  earlier_.path().string() +
+                  ", which is of another run\n    put it beside the result of its own run, or run the case "
+                  "anew");
+}
 
 Scene Restart::scene(const std::vector<Override>& overrides) {
   for (const Override& change : overrides) require_changeable(change);

@@ -15,14 +15,18 @@ struct SavedCase {
 
 /// How far a run had come, apart from its simulation.
 struct Account {
+  std::string run_id;                               ///< empty where an earlier version saved it
   std::int64_t frames = 0, probe_rows = 0;          ///< recorded because they were due
   double run_time = 0, observing = 0, writing = 0;  ///< s
   void transfer(Archive& archive);
 };
 
+/// One for each run, by chance.
+std::string new_run_id();
+
 class Restart {
  public:
-  /// Throws FileError for what is no checkpoint or has no result beside it.
+  /// Throws FileError for what is no checkpoint, or has no result beside it, or another run's.
   explicit Restart(const std::filesystem::path& path);
 
   /// The case of the checkpoint with `overrides`; CaseError for one that the motion would have to know.
@@ -36,6 +40,7 @@ class Restart {
   std::string doubt();
 
  private:
+  void require_same_run();
   CheckpointReader checkpoint_;
   std::filesystem::path folder_;
   Result earlier_;

@@ -96,6 +96,7 @@ class Run {
   static Account account_of(Restart* from) {
     Account account;
     if (from != nullptr) account.transfer(from->archive());
+    if (account.run_id.empty()) account.run_id = new_run_id();
     return account;
   }
   static Simulation simulate(const Scene& scene, int threads, Restart* from) {
@@ -107,7 +108,7 @@ class Run {
     constexpr double patience = 0.25;  // s
     const Recorder::Options options{scene.output.compress, patience,
                                     std::llround(scene.time.end / scene.output.frame_interval) + 2,
-                                    std::llround(scene.time.end / probe_interval(scene)) + 2};
+                                    std::llround(scene.time.end / probe_interval(scene)) + 2, account.run_id};
     if (from != nullptr) from->require_later(simulation);
     folder.make();
     if (from == nullptr) return Recorder(folder.path(), simulation.result_model(), options);

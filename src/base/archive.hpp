@@ -22,6 +22,8 @@ class Archive {
   virtual void texts(const std::string& name, std::vector<std::string>& list) = 0;
   /// `now` while saving; of the list that was saved while restoring.
   virtual std::size_t length(const std::string& name, std::size_t now) = 0;
+  /// Whether there is such a field: earlier versions saved fewer. While saving always.
+  virtual bool holds(const std::string& name) const = 0;
   /// The file's name.
   virtual std::string place() const = 0;
 

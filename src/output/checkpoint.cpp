@@ -138,7 +138,7 @@ CheckpointReader::~CheckpointReader() = default;
 const fs::path& CheckpointReader::path() const { return impl_->file.path(); }
 
 std::size_t CheckpointReader::length(const std::string& name, std::size_t) {
-  if (!impl_->file.exists("/" + name)) refuse(name, "is missing");
+  if (!holds(name)) refuse(name, "is missing");
   const h5::Shape shape = impl_->file.shape("/" + name);
   // each entry takes eight bytes or more; what promises more would exhaust the memory
   if (shape.size() != 1 || shape[0] > impl_->bytes / sizeof(double))
@@ -164,6 +164,7 @@ void CheckpointReader::texts(const std::string& name, std::vector<std::string>& 
   list = impl_->file.read_texts("/" + name);
 }
 
+bool CheckpointReader::holds(const std::string& name) const { return impl_->file.exists("/" + name); }
 std::string CheckpointReader::place() const { return path().string(); }
 
 }  // namespace cinch

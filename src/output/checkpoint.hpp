@@ -28,6 +28,7 @@ class CheckpointWriter : public Archive {
   void values(const std::string& name, std::span<std::int64_t> numbers) override;
   void texts(const std::string& name, std::vector<std::string>& list) override;
   std::size_t length(const std::string&, std::size_t now) override { return now; }
+  bool holds(const std::string&) const override { return true; }
   std::string place() const override;
 
  private:
@@ -48,6 +49,7 @@ class CheckpointReader : public Archive {
   void values(const std::string& name, std::span<std::int64_t> numbers) override;
   void texts(const std::string& name, std::vector<std::string>& list) override;
   std::size_t length(const std::string& name, std::size_t now) override;
+  bool holds(const std::string& name) const override;
   std::string place() const override;
 
  private:

@@ -179,17 +179,34 @@ void remove_old_report(const std::filesystem::path& directory) {
   if (is_report_page(directory / kReportFile)) remove_file(directory / kReportFile);
 }
 
-void remove_old_run(const std::filesystem::path& directory) {
-  for (const char* name : {kResultFile, kNetXdmfFile, kRingsXdmfFile, kBallsXdmfFile, kWaysXdmfFile,
-                           kSummaryFile, kCheckpointFile})
+// All but its result.
+void remove_beside_result(const std::filesystem::path& directory) {
+  for (const char* name :
+       {kNetXdmfFile, kRingsXdmfFile, kBallsXdmfFile, kWaysXdmfFile, kSummaryFile, kCheckpointFile})
     remove_file(directory / name);
   remove_old_report(directory);
+}
+
+void remove_old_run(const std::filesystem::path& directory) {
+  remove_file(directory / kResultFile);
+  remove_beside_result(directory);
+}
+
+std::filesystem::path draft_in(const std::filesystem::path& directory) {
+  return directory / (std::string(kResultFile) + ".tmp");
+}
+
+// By its folder, as its checkpoint lies there: the file itself may have names elsewhere.
+bool lies_in(const Result& result, const std::filesystem::path& directory) {
+  const std::filesystem::path folder = result.path().parent_path();
+  std::error_code ignored;
+  return std::filesystem::equivalent(folder.empty() ? "." : folder, directory, ignored);
 }
 
 /// `draft`: beside the place of the result, which stays for the time being.
 h5::File create_file(const std::filesystem::path& directory, bool draft) {
   make_folder(directory);
-  if (draft) return h5::File::create(directory / (std::string(kResultFile) + ".tmp"));
+  if (draft) return h5::File::create(draft_in(directory));
   remove_old_run(directory);
   return h5::File::create(directory / kResultFile);
 }
@@ -241,9 +258,9 @@ struct Recorder::Impl {
   bool waits = false, finished = false;
 
   Impl(const std::filesystem::path& folder, ResultModel description, const Options& options, bool draft);
-  void write_description();
+  void write_description(const std::string& run_id);
   void copy(const Earlier& earlier);
-  void take_place();
+  void take_place(const Earlier& earlier);
   void append(const Frame& frame);
   void append_probes(std::span<const double> at, std::span<const double> rows);
   std::size_t waiting_bytes() const;
@@ -268,7 +285,7 @@ Recorder::Impl::Impl(const std::filesystem::path& folder, ResultModel descriptio
     joints.emplace(file, Ways(model), model.joints.size(), options);
     size.way_points = joints->ways.points(), size.way_segments = joints->ways.segments();
   }
-  write_description();
+  write_description(options.run_id);
   for (const std::string& term : Energies::names())
     energy.emplace_back(file, kEnergy + term, numbers(options.frames, "J"));
   if (!model.rings.empty()) rings.emplace(file, model.rings.size(), options);
@@ -281,8 +298,9 @@ Recorder::Impl::Impl(const std::filesystem::path& folder, ResultModel descriptio
 }
 
 // What only the file needs is freed: a run steps with it for hours.
-void Recorder::Impl::write_description() {
+void Recorder::Impl::write_description(const std::string& run_id) {
   write_model(file, model);
+  if (!run_id.empty()) file.set_attribute(kCinch, kRunId, run_id);
   const auto free = [](auto& list) { list = std::decay_t<decltype(list)>(); };
   free(model.elements), free(model.rest_length), free(model.element_radius);
   free(model.element_part), free(model.node_mass);
@@ -321,12 +339,16 @@ void Recorder::Impl::copy(const Earlier& earlier) {
   hand_over();
 }
 
-// The draft holds what the old file held up to there.
-void Recorder::Impl::take_place() {
+// The draft holds what the old file held up to there. The checkpoint of another run goes.
+void Recorder::Impl::take_place(const Earlier& earlier) {
   const std::filesystem::path draft = file.path(), place = directory / kResultFile;
   std::error_code error;
-  std::filesystem::remove(directory / kSummaryFile, error);
-  remove_old_report(directory);
+  if (lies_in(earlier.result, directory)) {
+    std::filesystem::remove(directory / kSummaryFile, error);
+    remove_old_report(directory);
+  } else {
+    remove_beside_result(directory);
+  }
   std::filesystem::rename(draft, place, error);
   if (error) throw FileError(place.string() + ": cannot replace it: " + error.message());
   file.set_path(place);
@@ -384,7 +406,7 @@ Recorder::Recorder(const std::filesystem::path& directory, ResultModel model, co
   require_enough(earlier, model);
   impl_ = std::make_unique<Impl>(directory, std::move(model), options, true);
   impl_->copy(earlier);
-  impl_->take_place();
+  impl_->take_place(earlier);
 }
 
 Recorder::~Recorder() {

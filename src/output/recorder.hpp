@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <memory>
 #include <span>
+#include <string>
 
 #include "base/result.hpp"
 #include "output/result_reader.hpp"
@@ -20,6 +21,7 @@ class Recorder {
     double patience = 0;    ///< s of run time that frames and probe rows may wait to be handed over together
     // Those that are expected: as long as there are no more, a kill at no moment can hide any.
     std::int64_t frames = 0, probe_rows = 0;
+    std::string run_id = {};  ///< of the run that it tells of, for Result::run_id
   };
   /// The part of a result from which a run goes on.
   struct Earlier {
@@ -32,7 +34,8 @@ class Recorder {
   /// that is allowed is the caller's business).
   Recorder(const std::filesystem::path& directory, ResultModel model, const Options& options);
   /// Begins with frames and probe rows of `earlier`, which may lie in `directory`: it is replaced when the
-  /// new file holds them all. Throws FileError where it has fewer.
+  /// disk has them all in the new file, as is an old run there, with all its files. Throws FileError where it
+  /// has fewer.
   Recorder(const std::filesystem::path& directory, ResultModel model, const Options& options,
            const Earlier& earlier);
   Recorder(const Recorder&) = delete;

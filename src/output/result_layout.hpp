@@ -7,6 +7,7 @@
 //   CellData/tension, strain, active [T E]  CellData/part [E]
 //   Steps  attribute NSteps = T, raised only when a frame is complete on disk
 // /cinch   attributes format, case, title, version, ..., closing_time     what VTK has no place for
+//   attribute run_id, that its checkpoint holds, too
 //   rings/center, normal, force [T, R, 3]
 //   joints/part, ring [J]  joints/element [T, J]  joints/waypoint [T, J, 3]     sliding ones
 //   ways/connectivity [2 S]  ways/points [T P, 3]  ways/tension, active [T S]   their threads, through the
@@ -41,6 +42,7 @@ inline constexpr char kTimes[] = "/VTKHDF/Steps/Values";
 inline constexpr char kFrameCount[] = "NSteps";  // attribute of kSteps
 
 inline constexpr char kCinch[] = "/cinch";
+inline constexpr char kRunId[] = "run_id";  // attribute of kCinch
 inline constexpr char kStepNumbers[] = "/cinch/step";
 inline constexpr char kEnergy[] = "/cinch/energy/";
 inline constexpr char kRings[] = "/cinch/rings";

@@ -76,6 +76,7 @@ struct Result::Impl {
   hsize_t rows = 0;
   std::vector<double> times;
   std::vector<std::int64_t> steps;
+  std::string run_id;
   std::optional<Summary> summary;
 
   explicit Impl(const std::filesystem::path& path) : file(h5::File::open(path)), model(read_model(file)) {
@@ -83,6 +84,7 @@ struct Result::Impl {
     rows = complete_rows(file, model);
     times = first_rows<double>(file, kTimes, static_cast<hsize_t>(frames));
     steps = first_rows<std::int64_t>(file, kStepNumbers, static_cast<hsize_t>(frames));
+    if (file.has_attribute(kCinch, kRunId)) run_id = file.text_attribute(kCinch, kRunId);
     summary = find_summary(file);
   }
 
@@ -123,6 +125,7 @@ int Result::frames() const { return impl_->frames; }
 const std::vector<double>& Result::frame_times() const { return impl_->times; }
 const std::vector<std::int64_t>& Result::frame_steps() const { return impl_->steps; }
 const std::optional<Summary>& Result::summary() const { return impl_->summary; }
+const std::string& Result::run_id() const { return impl_->run_id; }
 const std::filesystem::path& Result::path() const { return impl_->file.path(); }
 
 Frame Result::frame(int k) const {

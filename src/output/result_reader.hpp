@@ -32,6 +32,8 @@ class Result {
   std::vector<double> probe(const std::string& column) const;  ///< FileError names the columns there are
   bool has_probe(const std::string& column) const;
 
+  /// Of the run that wrote it, the same beyond stops and restarts; empty where an earlier version wrote it.
+  const std::string& run_id() const;
   /// The verdict; absent when the run was killed or is not over yet.
   const std::optional<Summary>& summary() const;
   const std::filesystem::path& path() const;  ///< of the .vtkhdf file

@@ -27,10 +27,10 @@ class MemoryArchive : public Archive {
   }
   std::size_t length(const std::string& name, std::size_t now) override {
     if (!restoring_) return now;
-    const auto found = entries.find(name);
-    if (found == entries.end()) refuse(name, "is missing");
-    return std::visit([](const auto& list) { return list.size(); }, found->second);
+    if (!holds(name)) refuse(name, "is missing");
+    return std::visit([](const auto& list) { return list.size(); }, entries.at(name));
   }
+  bool holds(const std::string& name) const override { return !restoring_ || entries.contains(name); }
 
   Entries entries;
 
