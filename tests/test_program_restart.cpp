@@ -283,6 +283,17 @@ TEST_F(Restarted, AFullDiskKeepsFramesAndCheckpoint) {
   EXPECT_TRUE(same("whole", "r"));
 }
 
+TEST_F(Restarted, ThatFindsNoRoomLeavesNoDraft) {
+  ASSERT_EQ(run(begin("0.0004", "r")), 0) << err();
+  const std::string before = text_of(path("r/run.vtkhdf"));
+  EXPECT_EQ(run(go_on("0.001", "r"), "ulimit -f 10; "), 4);
+  EXPECT_TRUE(has(err(), "r/run.vtkhdf.tmp") && has(err(), "File too large")) << err();
+  EXPECT_FALSE(fs::exists(path("r/run.vtkhdf.tmp")));
+  EXPECT_EQ(text_of(path("r/run.vtkhdf")), before);
+  EXPECT_EQ(summary("r").at("status"), "done") << "that of what is still there";
+  EXPECT_EQ(run(go_on("0.001", "r")), 0) << "with room again: " << err();
+}
+
 // ----------------------------------------------------------------------------------------------------
 // What is refused, with nothing changed
 

@@ -267,6 +267,7 @@ struct Recorder::Impl {
   bool may_wait(Clock::time_point now) const;
   void write_rows();
   void hand_over();
+  void sync();
   void write_events(const std::vector<Event>& events);
 };
 
@@ -336,10 +337,11 @@ void Recorder::Impl::copy(const Earlier& earlier) {
     const std::vector<double> all = earlier.result.probe_times();
     append_probes(std::span(all).first(earlier.probe_rows), earlier.result.probe_rows(earlier.probe_rows));
   }
-  hand_over();
+  sync();
 }
 
-// The draft holds what the old file held up to there. The checkpoint of another run goes.
+// The draft holds what the old file held up to there, on the disk: a checkpoint beside it counts on that.
+// That of another run goes.
 void Recorder::Impl::take_place(const Earlier& earlier) {
   const std::filesystem::path draft = file.path(), place = directory / kResultFile;
   std::error_code error;
@@ -384,6 +386,11 @@ void Recorder::Impl::hand_over() {
   last_hand_over = Clock::now();
 }
 
+void Recorder::Impl::sync() {
+  hand_over();
+  Descriptor(file.path(), O_RDWR).sync();
+}
+
 void Recorder::Impl::write_events(const std::vector<Event>& events) {
   std::vector<double> event_times;
   std::vector<std::string> kinds, names;
@@ -404,9 +411,15 @@ Recorder::Recorder(const std::filesystem::path& directory, ResultModel model, co
 Recorder::Recorder(const std::filesystem::path& directory, ResultModel model, const Options& options,
                    const Earlier& earlier) {
   require_enough(earlier, model);
-  impl_ = std::make_unique<Impl>(directory, std::move(model), options, true);
-  impl_->copy(earlier);
-  impl_->take_place(earlier);
+  try {
+    impl_ = std::make_unique<Impl>(directory, std::move(model), options, true);
+    impl_->copy(earlier);
+    impl_->take_place(earlier);
+  } catch (const std::exception&) {  // what it goes on from is still there
+    std::error_code ignored;
+    std::filesystem::remove(draft_in(directory), ignored);
+    throw;
+  }
 }
 
 Recorder::~Recorder() {
@@ -444,10 +457,7 @@ void Recorder::probes(double time, std::span<const double> values) {
   run.append_probes({&time, 1}, values);
 }
 
-void Recorder::sync() {
-  impl_->hand_over();
-  Descriptor(impl_->file.path(), O_RDWR).sync();
-}
+void Recorder::sync() { impl_->sync(); }
 
 void Recorder::finish(const Summary& summary) {
   Impl& run = *impl_;
