@@ -294,6 +294,24 @@ TEST_F(Restarted, ThatFindsNoRoomLeavesNoDraft) {
   EXPECT_EQ(run(go_on("0.001", "r")), 0) << "with room again: " << err();
 }
 
+// A folder in the way.
+TEST_F(Restarted, ACheckpointThatCannotBeWrittenEndsNoRun) {
+  fs::create_directories(path("r/checkpoint.h5.tmp"));
+  Words words = begin("0.001", "r");
+  words.insert(words.end(), {"--set", "output.checkpoint_interval_s=0.0001"});
+  EXPECT_EQ(run(words), 4);
+  const std::string said = err(), warning = "no checkpoint could be written: r/checkpoint.h5.tmp: ";
+  EXPECT_TRUE(said.starts_with("warning: at t = 0.0001 s " + warning)) << said;
+  EXPECT_EQ(std::count(said.begin(), said.end(), '\n'), 1) << said;
+  const Json told = summary("r");
+  EXPECT_EQ(told.at("status"), "done");
+  EXPECT_EQ(told.at("steps"), 1000);
+  EXPECT_EQ(told.at("events").size(), 1u);
+  ASSERT_EQ(told.at("warnings").size(), 1u);
+  EXPECT_TRUE(has(told.at("warnings")[0], warning)) << told.at("warnings");
+  EXPECT_EQ(cinch::Result(path("r")).frames(), 11);
+}
+
 // ----------------------------------------------------------------------------------------------------
 // What is refused, with nothing changed
 

@@ -92,6 +92,11 @@ class Run {
     return finish(status, message);
   }
 
+  /// Whether a restart could go on from where it has stopped, as far as the case asks for that.
+  bool kept() const { return kept_; }
+  /// The warning that has been told already, or empty.
+  const std::string& not_kept() const { return not_kept_; }
+
  private:
   static Account account_of(Restart* from) {
     Account account;
@@ -169,7 +174,7 @@ class Run {
     const bool by_step = checkpoints_.due(simulation_.step());
     const bool by_clock =
         output.checkpoint_run_time > 0 && now() - last_checkpoint_ >= output.checkpoint_run_time;
-    return output.checkpoint && (by_step || by_clock);
+    return output.checkpoint && (by_step || by_clock) && now() >= next_try_;
   }
 
   // Where it pauses nothing has been looked at.
@@ -182,14 +187,34 @@ class Run {
     keep();
   }
 
-  // What the checkpoint counts on is on the disk before it.
+  // What the checkpoint counts on is on the disk before it. One that cannot be written ends no run: it is
+  // tried again, but ever more rarely, as each may cost a handle of the system.
   void keep() {
     const double t0 = now();
     recorder_.sync();
     account_.run_time = before_ + now() - begin_;
-    write_checkpoint(folder_.path(), {scene_.name, scene_.resolved_toml}, account_, simulation_);
+    kept_ = true;
+    try {
+      write_checkpoint(folder_.path(), {scene_.name, scene_.resolved_toml}, account_, simulation_);
+    } catch (const FileError& error) {
+      kept_ = false;
+      pause_ = std::min(2 * pause_, 600.0);
+      next_try_ = now() + pause_;
+      tell_not_kept(error.what());
+    }
     last_checkpoint_ = now();
     account_.writing += last_checkpoint_ - t0;
+  }
+
+  // Once, and at once: hours may be left in which to make room.
+  void tell_not_kept(std::string why) {
+    if (!not_kept_.empty()) return;
+    if (const std::string prefix = "error: "; why.starts_with(prefix)) why.erase(0, prefix.size());
+    char time[64];
+    std::snprintf(time, sizeof time, "at t = %.6g s no checkpoint could be written: ", simulation_.time());
+    not_kept_ = time + why;
+    progress_.finish();
+    std::cerr << "warning: " << not_kept_ << std::endl;
   }
 
   // Where it has stopped; it counts for no checkpoint.
@@ -211,6 +236,7 @@ class Run {
     if (status != "failed") summary.history.clear();
     if (const std::string overlap = simulation_.overlap_warning(); status != "failed" && !overlap.empty())
       summary.warnings.push_back(overlap);
+    if (!not_kept_.empty()) summary.warnings.push_back(not_kept_);
     summary.host = host_name();
     summary.wall_seconds = before_ + now() - begin_;
     for (StageTime& stage : summary.stages) {
@@ -230,16 +256,24 @@ class Run {
   Recorder recorder_;
   Schedule frames_, probes_, checkpoints_;
   Progress progress_;
-  double last_checkpoint_;
+  double last_checkpoint_, next_try_ = 0, pause_ = 1;  // s of run time
+  bool kept_ = true;
+  std::string not_kept_;
   std::int64_t stretch_ = 64, last_frame_ = -1;
 };
 
-int exit_code(const Summary& summary) {
+int exit_code(const Summary& summary, bool kept) {
   if (summary.status == "failed") return static_cast<int>(ExitCode::numerical);
   if (summary.status == "interrupted") return static_cast<int>(ExitCode::interrupted);
   if (summary.status == "terminated") return static_cast<int>(ExitCode::terminated);
-  return static_cast<int>(ExitCode::done);
+  return static_cast<int>(kept ? ExitCode::done : ExitCode::input_output);
 }
+
+struct Outcome {
+  Summary summary;
+  bool kept;         // see Run
+  std::string told;  // a warning that has been told already
+};
 
 // Where what a run goes on from lies.
 fs::path source_folder(const fs::path& restart) {
@@ -285,17 +319,20 @@ int run(const RunArguments& arguments) {
   if (!doubt.empty()) std::cerr << "warning: " << doubt << "\n";
   warn_of_threads(arguments.scene.threads);
   watch_signals();
-  const Summary summary = with_memory_for(scene, [&] {
+  const Outcome outcome = with_memory_for(scene, [&] {
     Run one(scene, arguments.scene.threads, folder, arguments.quiet, from ? &*from : nullptr);
     if (!goes_on_in_place(arguments)) source.reset();  // copied
     if (!from) one.warn();
-    return one.go();
+    Summary summary = one.go();
+    return Outcome{std::move(summary), one.kept(), one.not_kept()};
   });
+  const Summary& summary = outcome.summary;
   if (!summary.message.empty()) std::cerr << summary.message << "\n";
-  for (const std::string& warning : summary.warnings) std::cerr << "warning: " << warning << "\n";
+  for (const std::string& warning : summary.warnings)
+    if (warning != outcome.told) std::cerr << "warning: " << warning << "\n";
   if (!arguments.quiet) print_verdict(Result(folder.path()), std::cout);
   std::cout << "results: " << folder.path().string() << "\n";
-  return exit_code(summary);
+  return exit_code(summary, outcome.kept);
 }
 
 }  // namespace cinch::app
