@@ -85,6 +85,17 @@ TEST_F(Signalled, TwiceAtOnceIsOneRequest) {
   EXPECT_TRUE(fs::exists(path("r/checkpoint.h5")));
 }
 
+// As nohup does, and shells for what runs in the background.
+TEST_F(Signalled, WhatIsIgnoredStaysSo) {
+  const pid_t child = start(endless, "trap '' INT HUP; ");
+  wait_for_file("r/run.vtkhdf");
+  kill(child, SIGSTOP);
+  waitpid(child, nullptr, WUNTRACED);
+  for (const int signal : {SIGHUP, SIGINT, SIGTERM, SIGCONT}) kill(child, signal);
+  EXPECT_EQ(wait_for(child), 143) << err();
+  EXPECT_EQ(summary("r").at("status"), "terminated");
+}
+
 // While it sleeps in a call of the system, which the signal interrupts.
 TEST_F(Signalled, AnInterruptedWriteGoesOn) {
   block("r/run.xdmf.tmp");

@@ -36,6 +36,13 @@ extern "C" void on_signal(int signal) {
   }
 }
 
+// What is ignored stays so: nohup, and shells for what runs in the background, ask for that.
+void watch(int signal, const struct sigaction& action) {
+  struct sigaction old {};
+  sigaction(signal, nullptr, &old);
+  if (old.sa_handler != SIG_IGN) sigaction(signal, &action, nullptr);
+}
+
 }  // namespace
 
 void watch_signals() {
@@ -43,7 +50,7 @@ void watch_signals() {
   action.sa_handler = on_signal;
   action.sa_flags = SA_RESTART;  // a write that a signal interrupts has not failed
   sigemptyset(&action.sa_mask);
-  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) sigaction(signal, &action, nullptr);
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) watch(signal, action);
   signal(SIGXFSZ, SIG_IGN);  // a file that may not grow is an error like a full disk
 }
 

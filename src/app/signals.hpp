@@ -1,4 +1,5 @@
-// SIGINT, SIGTERM and SIGHUP ask a run to stop after the step at hand; a second one ends it at once.
+// SIGINT, SIGTERM and SIGHUP ask a run to stop after the step at hand, unless it was started with them
+// ignored; a second one ends it at once.
 #pragma once
 
 namespace cinch::app {

@@ -99,8 +99,17 @@ class Program : public testing::Test {
     posix_spawn_file_actions_addopen(&files, 0, "/dev/null", O_RDONLY, 0);
     posix_spawn_file_actions_addopen(&files, 1, path("out").c_str(), flags, 0644);
     posix_spawn_file_actions_addopen(&files, 2, path("err").c_str(), flags, 0644);
+    // the tests themselves may run in the background, with signals ignored
+    posix_spawnattr_t attributes;
+    posix_spawnattr_init(&attributes);
+    sigset_t usual;
+    sigemptyset(&usual);
+    for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGPIPE}) sigaddset(&usual, signal);
+    posix_spawnattr_setsigdefault(&attributes, &usual);
+    posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETSIGDEF);
     pid_t child = -1;
-    EXPECT_EQ(posix_spawn(&child, "/bin/sh", &files, nullptr, arguments.data(), environ), 0);
+    EXPECT_EQ(posix_spawn(&child, "/bin/sh", &files, &attributes, arguments.data(), environ), 0);
+    posix_spawnattr_destroy(&attributes);
     posix_spawn_file_actions_destroy(&files);
     return child;
   }
