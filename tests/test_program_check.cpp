@@ -277,4 +277,24 @@ TEST_F(Program, AFullDiskBehindStandardOutputIsAnError) {
   EXPECT_TRUE(fs::exists(path("q/summary.json"))) << "the result is whole";
 }
 
+TEST_F(Program, APipeThatNobodyReadsCostsNoRun) {
+  const std::string pipe = path("pipe").string();
+  const auto into_pipe = [&](const char* number) {
+    fs::remove(pipe);
+    return "mkfifo " + pipe + "; exec 3<>" + pipe + " " + number + ">" + pipe + " 3<&-; ";
+  };
+  const Words far{"run", "tiny.toml", "--set", "ring.r1.joint=auto", "--set", "ring.r1.center_m=[1, 0, 0]"};
+  Words words = far;
+  words.insert(words.end(), {"--out", "r"});
+  ASSERT_EQ(run(words), 0);
+  ASSERT_TRUE(has(err(), "warning: ")) << err();
+  words.back() = "q";
+  EXPECT_EQ(run(words, into_pipe("2")), 0);
+  EXPECT_EQ(summary("q").at("state_hash"), summary("r").at("state_hash"));
+  words.back() = "p";
+  EXPECT_EQ(run(words, into_pipe("1")), 4);
+  EXPECT_TRUE(has(err(), "error: standard output: cannot write")) << err();
+  EXPECT_EQ(summary("p").at("status"), "done");
+}
+
 }  // namespace

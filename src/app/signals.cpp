@@ -52,6 +52,7 @@ void watch_signals() {
   sigemptyset(&action.sa_mask);
   for (const int signal : {SIGINT, SIGTERM, SIGHUP}) watch(signal, action);
   signal(SIGXFSZ, SIG_IGN);  // a file that may not grow is an error like a full disk
+  signal(SIGPIPE, SIG_IGN);  // and so is a pipe that nobody reads: behind stderr it costs no run
 }
 
 int stop_signal() { return caught; }

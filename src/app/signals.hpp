@@ -1,5 +1,6 @@
 // SIGINT, SIGTERM and SIGHUP ask a run to stop after the step at hand, unless it was started with them
-// ignored; a second one ends it at once.
+// ignored; a second one ends it at once. Files that may not grow and pipes that nobody reads are errors of
+// writing.
 #pragma once
 
 namespace cinch::app {
