@@ -740,6 +740,10 @@ TEST(CaseReader, FramesSamplesAndStepsAreBounded) {
       minimal + "[output]\nframe_interval_s = 1e-7\n",
       {"13:20: error: output.frame_interval_s: found 1e-07 with time.end_s = 1, allowed: >= 1e-06 s"});
   expect_error(minimal + "[output]\nprobe_interval_s = 1e-8\n", {"output.probe_interval_s: found 1e-08"});
+  expect_error(minimal + "[output]\ncheckpoint_interval_s = 1e-7\n",
+               {"13:25: error: output.checkpoint_interval_s: found 1e-07 with time.end_s = 1, allowed: 0, or "
+                ">= 1e-06 s"});
+  EXPECT_EQ(error_of(minimal + "[output]\ncheckpoint_interval_s = 1e-6\n"), "");
   expect_error(minimal, {"--set time.step_s=1e-13: error: time.step_s: found 1e-13"},
                {{"time.step_s", "1e-13"}});
   expect_error(minimal, {"allowed: a step below the end"}, {{"time.step_s", "1e-2"}, {"time.end_s", "1e-3"}});

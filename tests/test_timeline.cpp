@@ -1,6 +1,8 @@
 // Steps before the closing time and from it on: when they are, how long, and what changing them costs.
 #include <gtest/gtest.h>
 
+#include <set>
+
 #include "app/schedule.hpp"
 #include "base/error.hpp"
 #include "input/case_reader.hpp"
@@ -41,6 +43,24 @@ TEST(Timeline, WhatIsDueAtIntervalsIsSoAtTheNearestSteps) {
   for (std::int64_t step = 0; step <= 12; ++step)
     if (schedule.due(step)) due.push_back(step);
   EXPECT_EQ(due, (std::vector<std::int64_t>{0, 1, 2, 4, 7, 10}));  // 0, 0.5, 1, 1.25, 1.625, 2
+}
+
+TEST(Timeline, WhatIsDueAgainAndAgainWithinAStepIsSoOnce) {
+  const Timeline timeline(0.5, 0.125, 2);
+  const auto due_steps = [&](double interval) {
+    app::Schedule schedule(interval, timeline);
+    std::set<std::int64_t> due;
+    for (std::int64_t step = 0; step <= 12; ++step)
+      if (schedule.due(step)) due.insert(step);
+    return due;
+  };
+  for (const double interval : {0.01, 0.1, 0.25, 0.7}) {
+    std::set<std::int64_t> expected;
+    for (int k = 0; timeline.step_at(k * interval) <= 12; ++k)
+      expected.insert(timeline.step_at(k * interval));
+    EXPECT_EQ(due_steps(interval), expected) << interval;
+  }
+  EXPECT_EQ(due_steps(1e-15).size(), 13u) << "more than can be counted one by one";
 }
 
 Scene capture_with(std::vector<Override> sets) {

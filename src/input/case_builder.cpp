@@ -12,7 +12,7 @@ namespace {
 
 using Type = TomlValue::Type;
 
-constexpr double max_frames = 1e6, max_samples = 1e7,
+constexpr double max_frames = 1e6, max_samples = 1e7, max_checkpoints = 1e6,
                  max_steps = 1e12;  // a run beyond them is a slip of the pen
 constexpr double max_elements = 2e8;
 constexpr std::size_t max_parts = 20000;  // of a kind: they are found by name, one after the other
@@ -193,6 +193,11 @@ void CaseBuilder::check_run() {
     fail(place("output", "probe_interval_s"),
          "output.probe_interval_s: found " + toml_text(output.probe_interval) + " with " + end +
              ", allowed: >= " + toml_text(time.end / max_samples) + " s, at most 1e7 samples a run");
+  if (output.checkpoint_interval > 0 && time.end / output.checkpoint_interval > max_checkpoints)
+    fail(place("output", "checkpoint_interval_s"),
+         "output.checkpoint_interval_s: found " + toml_text(output.checkpoint_interval) + " with " + end +
+             ", allowed: 0, or >= " + toml_text(time.end / max_checkpoints) +
+             " s, at most 1e6 checkpoints a run");
   const auto check_step = [&](const char* section, double step) {
     const std::string found = std::string(section) + ".step_s: found " + toml_text(step) + " with " + end;
     if (step > 0 && time.end / step > max_steps)
