@@ -107,6 +107,14 @@ TEST_F(Restarted, ACheckpointOfAnotherRunIsRefused) {
   EXPECT_EQ(run(go_on("0.0008", "r")), 0) << err();
 }
 
+TEST_F(Restarted, ThatFailsAtOnceRepeatsNoFrame) {
+  ASSERT_EQ(run(begin("0.0004", "r")), 0) << err();
+  Words slow = go_on("0.001", "r");
+  slow.insert(slow.end(), {"--set", "time.speed_limit_m_s=1e-3"});
+  EXPECT_EQ(run(slow), 3) << err();
+  EXPECT_EQ(cinch::Result(path("r")).frame_steps(), (std::vector<std::int64_t>{0, 100, 200, 300, 400}));
+}
+
 TEST_F(Restarted, WhileSomebodyReadsTheResult) {
   ASSERT_EQ(run(begin("0.001", "whole")), 0) << err();
   ASSERT_EQ(run(begin("0.0004", "r")), 0) << err();

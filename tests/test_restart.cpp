@@ -31,6 +31,10 @@ Simulation restored(const Scene& scene, int threads, const Entries& entries) {
   return Simulation(scene, prepare(scene), threads, archive);
 }
 
+std::string refusal(const Scene& scene, const Entries& entries) {
+  return file_error_of([&] { restored(scene, 1, entries); });
+}
+
 // Looks as a run does.
 void advance(Simulation& simulation, std::int64_t until) {
   while (simulation.step() < until) {
@@ -155,6 +159,40 @@ TEST(Restart, WhatIsSavedComesBack) {
   EXPECT_EQ(saved(again), entries);
 }
 
+// A thread laid 0.1 mm deep into a target: what is told of that, and what faults of the first looks are put
+// down to, does not end with a stop.
+TEST(Restart, KnowsTheOverlapAtTheStart) {
+  const Scene scene = scene_of(R"(schema = 1
+[time]
+end_s = 0.02
+[material.m]
+youngs_modulus_Pa = 1e9
+density_kg_m3 = 970
+[thread.t]
+material = "m"
+diameter_m = 0.002
+elements = 10
+points_m = [[-0.5, 0, 0], [0.5, 0, 0]]
+start = { mass_kg = 0.01 }
+end = { mass_kg = 0.01 }
+[target.b]
+center_m = [0, 0, -0.1009]
+radius_m = 0.1
+youngs_modulus_Pa = 1e6
+)");
+  Simulation simulation(scene, 1);
+  advance(simulation, 74);
+  ASSERT_NE(simulation.overlap_warning(), "");
+  Entries entries = saved(simulation);
+  EXPECT_EQ(restored(scene, 1, entries).overlap_warning(), simulation.overlap_warning());
+  Simulation next = restored(scene, 1, entries);
+  EXPECT_EQ(saved(next), entries);
+  std::get<std::vector<std::int64_t>>(entries.at("overlap/with"))[0] = 1;
+  EXPECT_EQ(refusal(scene, entries), "error: memory: overlap/with holds 1; allowed: 0 to 0");
+  std::erase_if(entries, [](const auto& entry) { return entry.first.starts_with("overlap/"); });
+  EXPECT_EQ(restored(scene, 1, entries).overlap_warning(), "") << "as earlier versions saved it";
+}
+
 // The mouth counts as closed below a share of the greatest area that it ever had.
 TEST(Restart, KnowsTheGreatestMouthSoFar) {
   const Scene scene = read(capture());
@@ -177,10 +215,6 @@ TEST(Restart, KnowsTheGreatestMouthSoFar) {
 
 // ----------------------------------------------------------------------------------------------------
 // What is refused
-
-std::string refusal(const Scene& scene, const Entries& entries) {
-  return file_error_of([&] { restored(scene, 1, entries); });
-}
 
 TEST(Restart, RefusesWhatBelongsToAnotherCase) {
   Simulation simulation(read(capture()), 1);

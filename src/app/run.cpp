@@ -61,6 +61,8 @@ class Run {
     if (from == nullptr) return;
     frames_.due(simulation_.step());
     probes_.due(simulation_.step());
+    if (account_.frames > 0)  // it is there already, should this stop before its first step
+      last_frame_ = from->earlier().frame_steps().at(static_cast<std::size_t>(account_.frames) - 1);
   }
 
   void warn() const {

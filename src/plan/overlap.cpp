@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <limits>
 
 #include "plan/contact_health.hpp"
 #include "plan/health.hpp"
@@ -57,6 +58,25 @@ void OverlapWatch::begin(const Model& model, const State& state, const ContactLi
   overlap_ = find_overlap(model, state, contacts, first);
   sound_looks_ = 0;
   if (overlap_ && energy > least_energy) overlap_->share = energy / (now.kinetic + now.elastic + now.contact);
+}
+
+void OverlapWatch::transfer(Archive& archive, const Model& model) {
+  constexpr std::int64_t most = std::numeric_limits<int>::max();
+  if (!archive.holds("overlap/is")) return;
+  bool is = overlap_.has_value();
+  Overlap one = overlap_.value_or(Overlap{});
+  archive.flag("overlap/is", is);
+  archive.flag("overlap/ring", one.ring);
+  const auto partners = static_cast<std::int64_t>(one.ring ? model.rings.size() : model.balls.size());
+  archive.whole("overlap/with", one.pair.with, 0, std::max<std::int64_t>(partners - 1, 0));
+  archive.whole("overlap/element", one.pair.element, kernel::sphere_label(model.nodes - 1),
+                std::int64_t{model.elements} - 1);
+  archive.value("overlap/depth", one.depth);
+  archive.value("overlap/share", one.share);
+  archive.whole("overlap/step", one.step, 0, std::numeric_limits<std::int64_t>::max());
+  archive.whole("overlap/sound_looks", sound_looks_, 0, most);
+  if (is && partners == 0) archive.refuse("overlap/is", "tells of what the case does not have");
+  overlap_ = is ? std::optional(one) : std::nullopt;
 }
 
 bool OverlapWatch::to_blame(const Preparation& preparation, const State& state) const {

@@ -4,6 +4,7 @@
 #include <optional>
 #include <string>
 
+#include "base/archive.hpp"
 #include "base/error.hpp"
 #include "base/result.hpp"
 #include "plan/contact_list.hpp"
@@ -43,6 +44,8 @@ class OverlapWatch {
       throw;
     }
   }
+  /// As the model's state goes on; where an earlier version saved it, nothing is known of overlaps.
+  void transfer(Archive& archive, const Model& model);
   /// Of overlaps that hold much of the energy; else empty.
   std::string warning(const Preparation& preparation) const;
 

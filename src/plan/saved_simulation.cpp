@@ -79,6 +79,7 @@ void Simulation::transfer_watch(Archive& archive) {
   enclosed_.assign(enclosed.begin(), enclosed.end());
   transfer_events(archive, events_);
   threadings_.transfer(archive, preparation_.assembly, model().elements);
+  overlaps_.transfer(archive, model());
 }
 
 // Of all stages since the beginning, whoever stepped.
