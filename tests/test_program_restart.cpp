@@ -52,8 +52,8 @@ TEST_F(Restarted, AKilledRunWithoutCheckpointIsToldWhy) {
       << err();
   EXPECT_EQ(run(go_on("0.002", "r")), 4);
   EXPECT_TRUE(err().starts_with("error: r: no checkpoint.h5 in this directory, but a result: ")) << err();
-  for (const char* words :
-       {"once a minute by default", "run the case anew", "output.checkpoint_run_time_s=10"})
+  for (const char* words : {"or the disk was full", "once a minute by default", "run the case anew",
+                            "output.checkpoint_run_time_s=10"})
     EXPECT_TRUE(has(err(), words)) << err();
 }
 

@@ -1029,6 +1029,20 @@ TEST(Results, InfoReadsWell) {
     EXPECT_NE(text.str().find(part), std::string::npos) << part << "\n" << text.str();
 }
 
+// Nothing tells why there is no end.
+TEST(Results, InfoOfARunWithoutItsEnd) {
+  const Scratch scratch;
+  const ResultModel model = small_model(5);
+  Recorder recorder(scratch.path, model, {});
+  recorder.frame(small_frame(model, 0));
+  std::ostringstream text;
+  print_info(Result(scratch.path), text);
+  EXPECT_NE(text.str().find("not finished: still running, or stopped before its end (killed, or the disk was "
+                            "full)"),
+            std::string::npos)
+      << text.str();
+}
+
 TEST(Results, KeepsTheIdOfItsRun) {
   const Scratch scratch;
   const ResultModel model = small_model(4);

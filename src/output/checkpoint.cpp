@@ -42,9 +42,9 @@ Block describe(const Descriptor& file) {
 
 // Of a result without checkpoint: what is likely, and what to do.
 std::string why_none() {
-  return ", but a result: its run was killed before it wrote one (once a minute by default, and when it ends "
-         "or is "
-         "stopped by Ctrl-C or SIGTERM), or has output.checkpoint = false\n    run the case anew; "
+  return ", but a result: its run is still running, or stopped before it wrote one (killed, or the disk was "
+         "full; one is written once a minute by default, and when the run ends or is stopped by Ctrl-C or "
+         "SIGTERM), or has output.checkpoint = false\n    run the case anew; "
          "--set output.checkpoint_run_time_s=10 writes one every ten seconds";
 }
 

@@ -128,7 +128,7 @@ const char* why_unfinished(const Result& result) {
     case Writer::unknown:
       break;
   }
-  return "not finished: still running, or killed";
+  return "not finished: still running, or stopped before its end (killed, or the disk was full)";
 }
 
 }  // namespace
