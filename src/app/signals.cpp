@@ -31,7 +31,7 @@ extern "C" void on_signal(int signal) {
   int none = 0;
   if (caught.compare_exchange_strong(none, signal)) {
     caught_at = now();
-  } else if (caught_at != 0 && now() - caught_at > one_request) {  // frames are flushed: nothing is lost
+  } else if (caught_at != 0 && now() - caught_at > one_request) {  // as a kill
     _exit(static_cast<int>(signal == SIGTERM ? ExitCode::terminated : ExitCode::interrupted));
   }
 }

@@ -11,7 +11,8 @@ struct RunTrack {
   std::vector<std::vector<Vec3>> nodes;     ///< of each part of the assembly, m
 };
 
-/// Runs a scene to its end as `cinch run` does, without its files. Throws what Simulation throws.
+/// Runs a scene until time.end_s, whatever time.end_when says, and writes no files. Throws what Simulation
+/// throws.
 RunTrack follow(const Scene& scene, int threads, const Nudge& nudge = {});
 
 }  // namespace cinch
