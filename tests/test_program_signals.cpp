@@ -89,9 +89,17 @@ TEST_F(Signalled, TwiceAtOnceIsOneRequest) {
 TEST_F(Signalled, WhatIsIgnoredStaysSo) {
   const pid_t child = start(endless, "trap '' INT HUP; ");
   wait_for_file("r/run.vtkhdf");
-  kill(child, SIGSTOP);
-  waitpid(child, nullptr, WUNTRACED);
-  for (const int signal : {SIGHUP, SIGINT, SIGTERM, SIGCONT}) kill(child, signal);
+  const std::string status = text_of("/proc/" + std::to_string(child) + "/status");
+  const auto in = [&](const std::string& mask, int signal) {
+    return (std::stoull(status.substr(status.find(mask) + mask.size()), nullptr, 16) >> (signal - 1) & 1) !=
+           0;
+  };
+  for (const int signal : {SIGINT, SIGHUP}) {
+    EXPECT_TRUE(in("SigIgn:", signal)) << status;
+    kill(child, signal);
+  }
+  EXPECT_TRUE(in("SigCgt:", SIGTERM)) << status;
+  kill(child, SIGTERM);
   EXPECT_EQ(wait_for(child), 143) << err();
   EXPECT_EQ(summary("r").at("status"), "terminated");
 }
