@@ -63,7 +63,7 @@ CASES = {"ring_pull/whole": (200, 10e-3, 0.9), "edge_closure/whole": (2800, 0.15
          "capture/whole": (2300, 0.2, 0.3), "capture/deployment": (1800, 0.1, 0.5),
          "capture/closing": (2300, 0.25, 0.2), "large_capture/closing/long": (72000, 12.0, 0.05)}
 ONE_THREAD_CASES = {"capture/closing_without_ledger": (2300, 0.24), "ring_pull/sliding": (20, 1e-3),
-                    "edge_closure/closing": (460, 0.03)}
+                    "edge_closure/closing": (460, 0.03), "capture/sliding_until_closed": (250, 0.09)}
 
 
 def of_cases() -> Iterator[Benchmark]:

@@ -30,11 +30,11 @@ class Targets(unittest.TestCase):
     def test_every_target_can_be_measured(self) -> None:
         figure = targets.figure(sample.run_of(sample.google_json()), sample.INSTRUCTIONS)
         self.assertEqual([row[0] for row in figure.rows if row[2] == "–"], [])
-        self.assertEqual(len(figure.rows), 21)
+        self.assertEqual(len(figure.rows), 22)
 
     def test_a_run_of_something_else_measures_none_and_names_what_would(self) -> None:
         figure = targets.figure(sample.run_of(sample.google_json(only="output/")), None)
-        self.assertEqual(figure.title, "0 met, 0 missed, 21 not measured")
+        self.assertEqual(figure.title, "0 met, 0 missed, 22 not measured")
         self.assertTrue(all("bench/" in str(row[4]) for row in figure.rows))
 
     def test_numbers_on_either_side_of_the_target(self) -> None:
@@ -71,6 +71,12 @@ class Targets(unittest.TestCase):
             with self.subTest(part):
                 self.assertEqual(row(part, changed({name: good})), [words, "met", ""])
                 self.assertEqual(row(part, changed({name: bad}))[1], "missed")
+
+    def test_a_sliding_capture_goes_by_time(self) -> None:
+        part = "Capture with sliding joints, until its mouth has closed"
+        for factor, verdict in ((1.1, "met"), (1.2, "missed")):
+            data = sample.google_json(slower={"case/capture/sliding_until_closed": factor})
+            self.assertEqual(row(part, data)[1], verdict)
 
     def test_start_up_goes_by_time(self) -> None:
         name = "startup/capture"
