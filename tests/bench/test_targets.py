@@ -75,7 +75,7 @@ class Targets(unittest.TestCase):
     def test_a_sliding_capture_goes_by_time(self) -> None:
         part = "Capture with sliding joints, until its mouth has closed"
         for factor, verdict in ((1.1, "met"), (1.2, "missed")):
-            data = sample.google_json(slower={"case/capture/sliding_until_closed": factor})
+            data = sample.google_json(slower={"case/capture/sliding_until_closed/threads:1": factor})
             self.assertEqual(row(part, data)[1], verdict)
 
     def test_start_up_goes_by_time(self) -> None:
@@ -119,7 +119,7 @@ class Bits(unittest.TestCase):
     def test_another_hash_with_more_threads_is_an_alarm(self) -> None:
         data = changed({f"{CLOSING}/threads:8": {"label": "0x<1>"}})
         self.assertEqual(self.verdicts(data)["capture, closing"], "DIFFERS")
-        self.assertEqual(row("Bits", data)[:2], ["1 of 9 scenes differ", "missed"])
+        self.assertEqual(row("Bits", data)[:2], ["1 of 10 scenes differ", "missed"])
         self.assertRegex(lead.alarms(sample.run_of(data)),
                          '<p class="alarm">case/capture/closing came to different bits: 0x[0-9a-f]{16} with 1, 2, 4, 16 '
                          "threads; 0x&lt;1&gt; with 8 threads</p>")
