@@ -659,6 +659,68 @@ TEST(SlidingJoint, NodesThatPassCreateNoEnergy) {
   }
 }
 
+// A taut thread with a ring on it, from fixed end to fixed end; nothing moves if the ring does not feel the
+// thread.
+Scene ring_on_a_taut_thread(int elements, const std::string& thread, const std::string& ring) {
+  return parse_case(R"(schema = 1
+[time]
+end_s = 1
+[material.cord]
+youngs_modulus_Pa = 10e9
+density_kg_m3 = 970
+[thread.rope]
+material = "cord"
+diameter_m = 0.002
+start = { support = "fixed" }
+end = { support = "fixed" }
+elements = )" + std::to_string(elements) +
+                        thread + R"(
+[ring.a]
+joint = "sliding"
+diameter_m = 0.02
+wire_diameter_m = 0.004
+youngs_modulus_Pa = 70e9
+)" + ring,
+                    "taut.toml");
+}
+
+// Even numbers of elements have a node in the plane of the opening, and rounding decides on which side of it.
+TEST(SlidingJoint, ARingAtRestOnATautThreadStaysSo) {
+  for (const int elements : {11, 12, 20, 100}) {
+    Simulation sim(ring_on_a_taut_thread(elements, R"(
+points_m = [[-0.5, 0, 0], [0.5, 0, 0]]
+length_m = 0.995)",
+                                         R"(mass_kg = 0.01
+center_m = [0, 0, 0]
+normal = [1, 0, 0]
+)"),
+                   1);
+    run_until(sim, 0.05);
+    const Summary summary = sim.summary();
+    EXPECT_LT(summary.energy.kinetic, 1e-20) << elements;
+    EXPECT_LT(summary.ring_records[0].peak_force, 1e-6) << elements;
+  }
+}
+
+// Each node that passes comes through the waypoint itself, with 160 N on both of its sides.
+TEST(SlidingJoint, ARingThatSlidesDownATautThreadWinsNoEnergy) {
+  for (const int elements : {12, 24}) {
+    Simulation sim(ring_on_a_taut_thread(elements, R"(
+points_m = [[0, 0, 0], [3, 0, -3]]
+length_m = 4.22
+[gravity]
+acceleration_m_s2 = [0, 0, -9.81])",
+                                         R"(mass_kg = 0.1
+center_m = [0.3, 0, -0.3]
+normal = [1, 0, -1]
+)"),
+                   1);
+    run_until(sim, 0.6);
+    EXPECT_GT(sim.state().joints[0].passes, 2) << elements;
+    EXPECT_LT(sim.summary().relative_residual, 1e-4) << elements;
+  }
+}
+
 // At every look, with a thread that slackens and dampers that take as much as they can.
 TEST(SlidingJoint, TheLedgerClosesForTautAndSlackElements) {
   Scene scene = ring_pull(9);

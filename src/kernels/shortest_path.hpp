@@ -52,12 +52,14 @@ inline SeenAs<N> seen_from(const OpeningOf<N>& o, const NeighbourOf<N>& n) {
   return {d - z * o.normal, pick(n.lift2 > 0, square_root(z * z + n.lift2), magnitude(z)), z};
 }
 
+constexpr double no_length = 1e-12;  ///< m: places so near to each other are one
+
 /// A neighbour in the waypoint itself pulls it in no direction.
 template <class N>
 inline N inverse_distance(const SeenAs<N>& s, Triple<N> offset) {
   const Triple<N> across = s.across - offset;
   const N d = square_root(dot(across, across) + s.height * s.height);
-  return pick(d > 1e-12, 1 / d, N(0));
+  return pick(d > no_length, 1 / d, N(0));
 }
 
 /// From a place to the nearest point of the opening, m.
@@ -265,7 +267,10 @@ template <class N>
 inline LegOf<N> leg(Triple<N> from, Triple<N> to, As<N> lift2) {
   const Triple<N> d = to - from;
   const N length = square_root(dot(d, d) + lift2);
-  return {pick(length > 1e-12, 1 / length, N(0)) * d, length};  // as inverse_distance has it
+  return {pick(length > no_length, 1 / length, N(0)) * d, length};
 }
+
+/// Else its direction is zero.
+inline bool has_direction(const Leg& leg) { return leg.length > no_length; }
 
 }  // namespace cinch::CINCH_ISA

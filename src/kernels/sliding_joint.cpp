@@ -14,7 +14,10 @@
 // passing creates any. Its slope jumps, though, somewhere between two steps: at the share s of the step in
 // which the energies cross, by a straight line through them. Central differences take the force at the step's
 // end for half a step before it; with the old force for the share s - 1/2 of the new one the work is right to
-// second order.
+// second order. That holds where the old force at the step's end is about what it was: not where the node
+// went by so near to the waypoint that its leg has turned round within the step, as on a taut thread that
+// leads straight through a ring. There the new force is taken alone: the old one would pull the ring with
+// twice the tension, where none did.
 //
 // Elements are computed as straight ones with all the others. What is added here is the difference.
 //
@@ -317,6 +320,24 @@ inline void swap_threadings(const Slide& s) {
   for (Index j = s.thread.joint_begin; j < s.thread.joint_end; j = s.behind(j)) find_way(s, group_of(s, j));
 }
 
+// Whether a node that ring j has let pass was nearer to the waypoint than it moves in a step. Joints stand as
+// before that.
+bool turned_round(const Slide& s, Index j) {
+  const Index here = s.state(j).element, there = s.work[j].old.element;
+  if (here == there) return false;
+  const Index k = there > here ? here + 1 : here;
+  const V3 apart = s.place(k) - s.waypoint(j);
+  const V3 speed = s.speed(k) - waypoint_velocity(s.work[j].host, vec(s.state(j).offset));
+  const double step = s.g.contact.step;
+  return dot(apart, apart) < step * step * dot(speed, speed);
+}
+
+bool any_turned_round(const Slide& s) {
+  for (Index j = s.thread.joint_begin; j < s.thread.joint_end; ++j)
+    if (turned_round(s, j)) return true;
+  return false;
+}
+
 // Nodes have passed since the last step: mixes the forces of both threadings as the head of this file says.
 void load_passing_thread(const Slide& s, Beyond& beyond, SlidingWriter& out) {
   const Beyond now = beyond_straight(s);
@@ -325,8 +346,8 @@ void load_passing_thread(const Slide& s, Beyond& beyond, SlidingWriter& out) {
   const double gap = now.energy - then.energy, change = s.g.contact.step * (now.storing - then.storing);
   double share = change < 0 ? 1 - gap / change : 0.5;  // of the step, where the gap was zero
   share = share > 0 ? share < 1 ? share : 1.0 : 0.0;
-  const double old = share - 0.5;
-  load_thread(s, old, beyond, out);
+  const double old = any_turned_round(s) ? 0.0 : share - 0.5;
+  if (old != 0) load_thread(s, old, beyond, out);
   swap_threadings(s);
   load_thread(s, 1 - old, beyond, out);
 }

@@ -164,17 +164,23 @@ inline double length_by_centers(const Slide& s, const RingGroup& group) {
   return length + norm(s.place(group.element + 1) - from);
 }
 
-// What is known of a way once its legs are.
-inline void set_way(Way& first, const Leg& direct, const Leg& last, double length) {
+// What is known of a way once its legs are. Where a node lies in its waypoint the leg between them has no
+// direction: the ring does not feel it, and the node is drawn along the next one.
+inline void set_way(const Slide& s, const RingGroup& group, const Leg& direct, const Leg& last,
+                    double length) {
+  Way& first = s.work[group.first].way;
   first.direct = direct;
   first.last = last;
   first.length = first.straight ? direct.length : length;
+  const bool one = group.last == group.first + 1;
   if (first.straight) first.before_it.unit = first.last.unit = direct.unit;
+  else if (!has_direction(first.before_it))
+    first.before_it.unit = one ? first.last.unit : s.work[group.first + 1].way.before_it.unit;
+  else if (!has_direction(last)) first.last.unit = s.work[group.last - 1].way.before_it.unit;
 }
 
 // Finds legs and length of a group from its waypoints.
 inline void measure_way(const Slide& s, const RingGroup& group, V3 a, V3 b) {
-  Way& first = s.work[group.first].way;
   V3 from = a;
   double length = 0;
   for (Index j = group.first; j < group.last; ++j) {
@@ -184,7 +190,7 @@ inline void measure_way(const Slide& s, const RingGroup& group, V3 a, V3 b) {
     from = to;
   }
   const Leg last = leg(from, b, 0);
-  set_way(first, leg(a, b, 0), last, length + last.length);
+  set_way(s, group, leg(a, b, 0), last, length + last.length);
 }
 
 // Whether the dampers of the last step took other than those of a straight element: then power is still due.

@@ -81,7 +81,7 @@ class WayQueue {
     first.idle = first.straight && may_idle(s, group);
     if (first.idle) return;
     for (int k = 0; k < rings; ++k) s.work[group.first + k].way.before_it = taken(l.leg[k]);
-    set_way(first, taken(l.direct), taken(l.leg[rings]), l.length[i]);
+    set_way(s, group, taken(l.direct), taken(l.leg[rings]), l.length[i]);
   }
 
   const SlidingArguments& g_;

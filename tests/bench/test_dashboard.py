@@ -60,8 +60,8 @@ class Page(unittest.TestCase):
         paper = next(series for series in chart["series"] if "i7-6700HQ" in series["label"])
         self.assertEqual(dict(zip(chart["categories"], paper["values"])),
                          {"capture, whole": 58.25, "capture, deployment": None, "capture, closing": None,
-                          "capture, closing without ledger": None, "edge_closure, whole": 110.2,
-                          "edge_closure, closing": None, "large_capture, closing": None,
+                          "capture, closing without ledger": None, "capture, sliding until closed": None,
+                          "edge_closure, whole": 110.2, "edge_closure, closing": None, "large_capture, closing": None,
                           "ring_pull, whole, 200 elements": 10.1, "ring_pull, sliding, 20 elements": None})
         self.assertIn("edge_closure, whole: 1,680 times faster", page)
 
