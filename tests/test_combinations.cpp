@@ -178,29 +178,52 @@ time_s = )" + time + "\n",
   EXPECT_EQ(run("0").preparation().closing_step, 0);
 }
 
-// The deployed net flies at 0.8 m/s along Z and closes at once. Events until `end`, in s.
-std::vector<std::string> events_around(const std::string& ball, double end) {
-  test::Case one = test::sliding(
+// The deployed net flies at 0.8 m/s along Z and closes at once.
+Simulation closing_around(const std::string& ball) {
+  const test::Case one = test::sliding(
       {"capture",
        {{"net.main.stowed_factor", "1"}, {"closing.time_s", "0.05"}, {"target.ball.center_m", ball}},
        0},
       12, "6.8e-6", 0);
-  Simulation simulation(test::read(one), 1);
-  for (double t = 0.02; t <= end; t += 0.02) {
+  return Simulation(test::read(one), 1);
+}
+
+// Until `end`, in s.
+void note_until(Simulation& simulation, double end) {
+  for (double t = simulation.time() + 0.02; t <= end; t += 0.02) {
     test::run_until(simulation, t);
     simulation.note_events(simulation.look());
   }
+}
+
+std::vector<std::string> capture_events(Simulation& simulation) {
   std::vector<std::string> kinds;
   for (const Event& event : simulation.summary().events)
     if (event.kind != "ring_contact" && event.kind != "separation") kinds.push_back(event.kind);
   return kinds;
 }
 
+using Kinds = std::vector<std::string>;
+
 TEST(Combinations, ATargetIsEnclosedOnceTheMouthHasClosedBehindIt) {
-  using Kinds = std::vector<std::string>;
-  EXPECT_EQ(events_around("[0, 0, 0.25]", 0.36),
-            (Kinds{"target_contact", "mouth_closed", "target_enclosed"}));
-  EXPECT_EQ(events_around("[0, 0, -0.25]", 0.36), Kinds{"mouth_closed"}) << "the net flies away from it";
+  Simulation around = closing_around("[0, 0, 0.25]"), ahead = closing_around("[0, 0, -0.25]");
+  note_until(around, 0.36);
+  EXPECT_EQ(capture_events(around), (Kinds{"target_contact", "mouth_closed", "target_enclosed"}));
+  note_until(ahead, 0.36);
+  EXPECT_EQ(capture_events(ahead), Kinds{"mouth_closed"}) << "the net flies away from it";
+}
+
+// Nothing holds a mouth shut.
+TEST(Combinations, AMouthMayOpenAgainAndATargetBeLost) {
+  Simulation simulation = closing_around("[0, 0, 0.25]");
+  note_until(simulation, 0.56);
+  Kinds kinds{"target_contact", "mouth_closed", "target_enclosed", "mouth_reopened"};
+  EXPECT_EQ(capture_events(simulation), kinds) << "what an open mouth holds is not lost yet";
+  for (double& z : simulation.state().z) z += 10;
+  simulation.advance_to(simulation.step() + 1);
+  simulation.note_events(simulation.look());
+  kinds.push_back("target_lost");
+  EXPECT_EQ(capture_events(simulation), kinds);
 }
 
 TEST(Combinations, TowingThreadAndLaunchShareTheDiagonalOfAnOblongNet) {

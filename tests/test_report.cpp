@@ -16,6 +16,7 @@
 #include "output/text_file.hpp"
 #include "report/assets.hpp"
 #include "report/charts.hpp"
+#include "report/facts.hpp"
 #include "report/html.hpp"
 #include "report/measure.hpp"
 #include "report/net_picture.hpp"
@@ -492,6 +493,29 @@ TEST(Report, A_capture_without_its_mechanisms_or_rings_has_gaps_that_are_named) 
   std::string notes;
   for (const Plot& plot : figure_plots({d})) notes += plot.note;
   EXPECT_NE(notes.find("The result has no ring 2."), std::string::npos) << notes;
+}
+
+TEST(Report, A_target_that_is_lost_again_is_told_and_not_enclosed) {
+  const auto told = [](const Digest& d, const std::string& what) {
+    for (const Fact& fact : facts_of(d))
+      if (fact.what == what) return fact.text;
+    return std::string("nothing");
+  };
+  Digest d = capture(1.5);
+  ResultModel::Ball ball;
+  ball.name = "ball";
+  d.model.balls = {ball};
+  EXPECT_EQ(told(d, "mouth"), "closed at 1.9 s");
+  EXPECT_EQ(told(d, "target ball"), "enclosed at 1.91 s");
+  EXPECT_EQ(measure::enclosed(d).value, 1);
+  d.summary->events.push_back({1.92, "mouth_reopened", ""});
+  d.summary->events.push_back({1.93, "target_lost", "ball"});
+  EXPECT_EQ(told(d, "mouth"), "closed at 1.9 s, reopened at 1.92 s");
+  EXPECT_EQ(told(d, "target ball"), "enclosed at 1.91 s, lost at 1.93 s");
+  EXPECT_NE(measure::enclosed(d).value, 1);
+  d.summary->events.clear();
+  EXPECT_EQ(told(d, "mouth"), "never closed");
+  EXPECT_EQ(told(d, "target ball"), "never enclosed");
 }
 
 TEST(Report, A_mouth_has_its_figure_in_any_case) {

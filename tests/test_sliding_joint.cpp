@@ -721,6 +721,31 @@ normal = [1, 0, -1]
   }
 }
 
+TEST(SlidingJoint, NoEquilibriumIsSoughtOfAThreadInARing) {
+  Scene scene = ring_on_a_taut_thread(12, R"(
+points_m = [[-0.5, 0, 0], [0.5, 0, 0]]
+length_m = 1.2
+[gravity]
+acceleration_m_s2 = [0, 0, -9.81]
+[start]
+equilibrium = true)",
+                                      R"(mass_kg = 0.1
+center_m = [0, 0, 0]
+normal = [1, 0, 0]
+support = "fixed"
+)");
+  std::string error;
+  try {
+    Simulation(scene, 1);
+  } catch (const CaseError& found) {
+    error = found.what();
+  }
+  EXPECT_NE(error.find("taut.toml:"), std::string::npos) << error;
+  EXPECT_NE(error.find("start.equilibrium: found true, but thread.rope slides through ring 'a'"),
+            std::string::npos)
+      << error;
+}
+
 // At every look, with a thread that slackens and dampers that take as much as they can.
 TEST(SlidingJoint, TheLedgerClosesForTautAndSlackElements) {
   Scene scene = ring_pull(9);

@@ -96,8 +96,8 @@ std::span<const Vec3> waypoints_in(const Frame& frame, Index element);
 
 struct Event {
   double time = 0;
-  std::string kind;  ///< ring_contact, target_contact, separation, mouth_closed, target_enclosed,
-                     ///< thread_left, thread_end
+  std::string kind;  ///< ring_contact, target_contact, separation, mouth_closed, mouth_reopened,
+                     ///< target_enclosed, target_lost, thread_left, thread_end
   std::string name;  ///< of the ring, target, mechanism or mouth; of the ring and the thread or node in it
 };
 

@@ -193,7 +193,9 @@ const Section<Scene>& start_section() {
           {{.name = "equilibrium",
             .type = flag,
             .fallback = "false",
-            .meaning = "Start from static equilibrium under gravity instead of the shape as given.",
+            .meaning = "Start from static equilibrium under gravity instead of the shape as given. It knows "
+                       "no contact, "
+                       "and no rings that slide on threads which are there from the start.",
             .source = "Sec. 5.2 starts from a net that hangs at rest"},
            into(&Scene::equilibrium)},
       });

@@ -44,6 +44,18 @@ EquilibriumResult equilibrium_of(const StaticNet& net, const Assembly& assembly,
   }
 }
 
+// What is sought knows elements, weights and supports: a thread would hang beside the rings that it slides
+// through, and be drawn back to them at once.
+void require_no_sliding_thread(const Assembly& assembly, const SourceRef& source) {
+  for (const AssemblyRing& ring : assembly.rings)
+    for (const Threading& threading : ring.threadings)
+      if (const Part& part = assembly.parts[at(threading.part)]; !part.closing)
+        fail(source, "start.equilibrium: found true, but " + part.reference() + " slides through ring '" +
+                         ring.name +
+                         "', which the equilibrium does not know; allowed: false, rings on closing threads "
+                         "alone, or joint = \"contact\" for rings that the thread hangs clear of");
+}
+
 // Positions of the nodes that exist before closing in static equilibrium; closing nodes are laid on them
 // again.
 void hang(Assembly& assembly, const Scene& scene, bool closes_at_once) {
@@ -63,6 +75,7 @@ void hang(Assembly& assembly, const Scene& scene, bool closes_at_once) {
     net.rest_length.push_back(item.rest_length);
   }
   net.gravity = scene.gravity.value_or(Vec3::Zero());
+  require_no_sliding_thread(assembly, scene.equilibrium_source);
   const EquilibriumResult found = equilibrium_of(net, assembly, scene.equilibrium_source);
   for (Index i = 0; i < assembly.nodes_before; ++i) assembly.nodes[at(i)].position = found.position[at(i)];
   for (const Lay& lay : assembly.lays)
@@ -408,10 +421,34 @@ void Simulation::note_drawn_ends(const Look& now) {
 }
 
 std::int64_t Simulation::end_step() const {
-  if (scene_.time.end_when == EndWhen::never || !mouth_closed_) return preparation_.end_step;
+  if (scene_.time.end_when == EndWhen::never) return preparation_.end_step;
   const auto closed = std::find_if(events_.begin(), events_.end(),
                                    [](const Event& event) { return event.kind == "mouth_closed"; });
+  if (closed == events_.end()) return preparation_.end_step;
   return std::min(preparation_.end_step, preparation_.timeline.step_at(closed->time + scene_.time.end_delay));
+}
+
+// Shares of the greatest area that the mouth ever had: below the first it is closed (model.md), beyond the
+// second it is open again.
+void Simulation::note_mouth(const Look& now, double area) {
+  constexpr double closed = 0.05, open_again = 0.1;
+  if (mouth_closed_ ? !(area > open_again * greatest_mouth_) : !(area < closed * greatest_mouth_)) return;
+  mouth_closed_ = !mouth_closed_;
+  events_.push_back({now.time(), mouth_closed_ ? "mouth_closed" : "mouth_reopened", "mouth"});
+}
+
+// An open mouth catches none, but what is inside when it opens is lost only when it is outside.
+void Simulation::note_targets(const Look& now) {
+  for (std::size_t b = 0; b < enclosed_.size(); ++b) {
+    if (!enclosed_[b] && !mouth_closed_) continue;
+    const AssemblyBall& ball = preparation_.assembly.balls[b];
+    const bool inside = std::any_of(surfaces_.begin(), surfaces_.end(), [&](const NetSurface& surface) {
+      return surface.encloses(now.positions(), ball.center);
+    });
+    if (inside == enclosed_[b]) continue;
+    enclosed_[b] = inside;
+    events_.push_back({now.time(), inside ? "target_enclosed" : "target_lost", ball.name});
+  }
 }
 
 void Simulation::note_events(const Look& now) {
@@ -421,16 +458,8 @@ void Simulation::note_events(const Look& now) {
   const double area = now.mouth_area();
   greatest_mouth_ = std::max(greatest_mouth_, area);
   if (!closed_phase() || now.step() <= preparation_.closing_step) return;
-  if (!mouth_closed_ && area < 0.05 * greatest_mouth_) {  // model.md: mouth closed
-    mouth_closed_ = true;
-    events_.push_back({now.time(), "mouth_closed", "mouth"});
-  }
-  for (std::size_t b = 0; mouth_closed_ && b < enclosed_.size(); ++b)
-    for (const NetSurface& surface : surfaces_)
-      if (!enclosed_[b] && surface.encloses(now.positions(), preparation_.assembly.balls[b].center)) {
-        enclosed_[b] = true;
-        events_.push_back({now.time(), "target_enclosed", preparation_.assembly.balls[b].name});
-      }
+  note_mouth(now, area);
+  note_targets(now);
 }
 
 }  // namespace cinch

@@ -105,6 +105,8 @@ class Simulation {
   void note_pace();
   void note_losses(const Look& now);
   void note_drawn_ends(const Look& now);
+  void note_mouth(const Look& now, double area);
+  void note_targets(const Look& now);
   void remember();
   [[noreturn]] void find_fault();
   std::vector<Event> all_events() const;

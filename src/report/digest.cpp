@@ -217,6 +217,16 @@ std::optional<double> Digest::first_event(const std::string& kind) const {
   return first;
 }
 
+std::vector<Event> Digest::turns(const std::string& kind, const std::string& undone,
+                                 const std::string& name) const {
+  std::vector<Event> found;
+  if (!summary) return found;
+  for (const Event& event : summary->events)
+    if ((event.kind == kind || event.kind == undone) && (name.empty() || event.name == name))
+      found.push_back(event);
+  return found;
+}
+
 int Digest::thread_elements() const {
   std::vector<int> count(model.parts.size(), 0);
   for (const int part : model.element_part) ++count[static_cast<std::size_t>(part)];

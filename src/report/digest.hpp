@@ -44,6 +44,9 @@ struct Digest {
   const RingRecord* record(int ring) const;  ///< of the summary; null when there is none
   /// Time of the first event of a kind; absent when it never came or the run left no summary.
   std::optional<double> first_event(const std::string& kind) const;
+  /// Of two kinds of events that undo each other: those of `name` (any, if empty), in their order.
+  std::vector<Event> turns(const std::string& kind, const std::string& undone,
+                           const std::string& name = "") const;
   double end_time() const { return frame_times.empty() ? 0 : frame_times.back(); }
   /// Elements of the longest thread: what the paper counts as the number of elements.
   int thread_elements() const;

@@ -26,8 +26,8 @@ Fact number(const char* what, double value, const char* unit, std::string aside 
   return {what, value, unit, "", std::move(aside)};
 }
 
-Fact words(const char* what, std::string text, std::string aside = "") {
-  return {what, 0, "", std::move(text), std::move(aside)};
+Fact words(std::string what, std::string text, std::string aside = "") {
+  return {std::move(what), 0, "", std::move(text), std::move(aside)};
 }
 
 std::string printed(const char* format, double value) {
@@ -72,6 +72,26 @@ std::string residual_words(double relative) {
                                    : "energy accounted for; " + of;
 }
 
+// "closed at 1.84 s, reopened at 2.4 s"
+std::string turns_of(const Digest& d, const char* kind, const char* done, const char* undone_kind,
+                     const char* undone, const std::string& name) {
+  std::string text;
+  for (const Event& event : d.turns(kind, undone_kind, name))
+    text += (text.empty() ? "" : ", ") + std::string(event.kind == kind ? done : undone) +
+            printed(" at %.4g s", event.time);
+  return text.empty() ? std::string("never ") + done : text;
+}
+
+// Whether a net has caught what it was to catch.
+void add_capture(const Digest& d, std::vector<Fact>& facts) {
+  if (!d.model.closing_time || d.model.balls.empty()) return;
+  facts.push_back(words("mouth", turns_of(d, "mouth_closed", "closed", "mouth_reopened", "reopened", ""),
+                        "closed: less than 5 % of its greatest area; reopened: more than 10 %"));
+  for (const ResultModel::Ball& ball : d.model.balls)
+    facts.push_back(words("target " + ball.name,
+                          turns_of(d, "target_enclosed", "enclosed", "target_lost", "lost", ball.name)));
+}
+
 }  // namespace
 
 std::string status_of(const Digest& d) {
@@ -91,6 +111,7 @@ std::vector<Fact> facts_of(const Digest& d) {
     return facts;
   }
   const Summary& s = *d.summary;
+  add_capture(d, facts);
   facts.push_back(
       number("energy residual", 100 * s.relative_residual, "%", residual_words(s.relative_residual)));
   facts.push_back(number("momentum drift", s.linear_momentum_drift, "kg m/s", "linear"));

@@ -103,7 +103,10 @@ Measured enclosed(const Digest& d) {
   if (!d.summary) return missing("the run left no summary");
   if (!d.model.closing_time) return missing("nothing closes in this case");
   const double end = *d.model.closing_time + kWhole;
-  if (const auto time = d.first_event("target_enclosed"); time && *time <= end + slack(d)) return {1, ""};
+  bool inside = false;
+  for (const Event& event : d.turns("target_enclosed", "target_lost"))
+    if (event.time <= end + slack(d)) inside = event.kind == "target_enclosed";
+  if (inside) return {1, ""};
   if (!reaches(d, end)) return past_the_end(d, end);
   return looked_twice(d, *d.model.closing_time, end) ? Measured{0, ""} : hardly_looked(d);
 }
