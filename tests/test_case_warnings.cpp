@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "plan/case_warnings.hpp"
+#include "support/pendulum.hpp"
 #include "support/quick_cases.hpp"
 #include "support/scenes.hpp"
 
@@ -132,22 +133,8 @@ TEST(ThickNet, IsToldOf) {
 
 TEST(LongStep, IsToldOfWhereFramesOrRowsCannotKeepUp) {
   const auto thread = [](const char* step, const std::string& output) {
-    return warnings_of(scene_of(R"(schema = 1
-[time]
-end_s = 0.1
-step_s = )" + std::string(step) +
-                                "\n[output]\n" + output + R"(
-[material.m]
-youngs_modulus_Pa = 1e3
-density_kg_m3 = 970
-[thread.main]
-material = "m"
-diameter_m = 0.002
-elements = 1
-points_m = [[0, 0, 0], [1, 0, 0]]
-start = { support = "fixed" }
-end = { mass_kg = 1 }
-)"));
+    return warnings_of(scene_of(pendulum_case(
+        "[time]\nend_s = 0.1\nstep_s = " + std::string(step) + "\n[output]\n" + output + "\n", "1e3")));
   };
   const auto probes = thread("0.002", "probe_interval_s = 1e-3");
   ASSERT_EQ(probes.size(), 1u);

@@ -10,6 +10,7 @@
 #include "study/error_estimate.hpp"
 #include "study/picture.hpp"
 #include "study/run_track.hpp"
+#include "support/pendulum.hpp"
 #include "support/quick_cases.hpp"
 #include "support/scenes.hpp"
 
@@ -314,28 +315,13 @@ TEST(ErrorEstimate, TellsWhatStoppedAFinerRun) {
 
 // A heavy mass on one light element could do with longer steps than two elements allow.
 Scene pendulum() {
-  return scene_of(R"(schema = 1
-[time]
-end_s = 0.05
-[gravity]
-acceleration_m_s2 = [0, 0, -9.81]
-[material.m]
-youngs_modulus_Pa = 1e9
-density_kg_m3 = 970
-[thread.main]
-material = "m"
-diameter_m = 0.002
-elements = 1
-points_m = [[0, 0, 0], [1, 0, 0]]
-start = { support = "fixed" }
-end = { mass_kg = 1 }
-[probe.end]
+  return scene_of(pendulum_case("[time]\nend_s = 0.05\n" + falling, "1e9", R"([probe.end]
 quantity = "position"
 of = "thread.main.end"
 [probe.start]
 quantity = "position"
 of = "thread.main.start"
-)");
+)"));
 }
 
 TEST(ErrorEstimate, TwiceTheElementsTakeAnAutomaticStepOfTheirOwnWhereTheyNeedIt) {

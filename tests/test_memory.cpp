@@ -7,14 +7,8 @@
 
 #include "base/error.hpp"
 #include "support/scenes.hpp"
+#include "support/shadowed.hpp"
 
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-#define CINCH_SHADOWED
-#elif defined(__has_feature)
-#if __has_feature(address_sanitizer) || __has_feature(thread_sanitizer)
-#define CINCH_SHADOWED
-#endif
-#endif
 #ifdef CINCH_SHADOWED
 extern "C" std::size_t __sanitizer_get_current_allocated_bytes();  // GCC brings no header for it
 #endif

@@ -7,6 +7,7 @@
 #include "base/error.hpp"
 #include "input/case_reader.hpp"
 #include "plan/simulation.hpp"
+#include "support/pendulum.hpp"
 #include "support/quick_cases.hpp"
 
 namespace {
@@ -85,23 +86,7 @@ TEST(Timeline, AutomaticStepsAreThoseOfWhatMovesThen) {
 
 // A pendulum of one element could do with longer steps than its rows are apart.
 Scene pendulum(double frames, double probes) {
-  Scene scene = parse_case(R"(schema = 1
-[time]
-end_s = 0.1
-[gravity]
-acceleration_m_s2 = [0, 0, -9.81]
-[material.m]
-youngs_modulus_Pa = 1e6
-density_kg_m3 = 970
-[thread.main]
-material = "m"
-diameter_m = 0.002
-elements = 1
-points_m = [[0, 0, 0], [1, 0, 0]]
-start = { support = "fixed" }
-end = { mass_kg = 1 }
-)",
-                           "pendulum.toml");
+  Scene scene = parse_case(pendulum_case("[time]\nend_s = 0.1\n" + falling, "1e6"), "pendulum.toml");
   scene.output.frame_interval = frames;
   scene.output.probe_interval = probes;
   return scene;

@@ -7,7 +7,6 @@
 #include <system_error>
 
 #include "app/commands.hpp"
-#include "app/resources.hpp"
 #include "base/error.hpp"
 #include "base/version.hpp"
 #include "input/nearest_key.hpp"
@@ -145,7 +144,6 @@ int parse_and_dispatch(int argc, char** argv) {
   CLI::App app{"Cinch: dynamics of tether-nets that capture space debris"};
   Options options;
   const Commands commands = define(app, options);
-  cinch::app::watch_memory_of_threads();
   try {
     app.parse(argc, argv);
     if (const std::string word = switch_with_value(app, argc, argv); !word.empty())

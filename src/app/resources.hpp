@@ -22,7 +22,4 @@ auto with_memory_for(const Scene& scene, const Work& work) {
   }
 }
 
-/// Ends the program like an error where memory runs out in a parallel region, which no exception can leave.
-void watch_memory_of_threads();
-
 }  // namespace cinch::app

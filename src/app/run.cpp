@@ -53,7 +53,7 @@ class Run {
         simulation_(simulate(scene, threads, from)),
         recorder_(record_in(folder_, scene, simulation_, account_, from)),
         frames_(scene.output.frame_interval, simulation_.preparation().timeline),
-        probes_(probe_interval(scene), simulation_.preparation().timeline),
+        probes_(scene.output.sample_interval(), simulation_.preparation().timeline),
         checkpoints_(scene.output.checkpoint_interval, simulation_.preparation().timeline),
         progress_(scene.time.end, quiet, simulation_.time(), simulation_.step()),
         last_checkpoint_(now()) {
@@ -113,18 +113,15 @@ class Run {
   static Recorder record_in(ResultFolder& folder, const Scene& scene, const Simulation& simulation,
                             const Account& account, const Restart* from) {
     constexpr double patience = 0.25;  // s
-    const Recorder::Options options{scene.output.compress, patience,
-                                    std::llround(scene.time.end / scene.output.frame_interval) + 2,
-                                    std::llround(scene.time.end / probe_interval(scene)) + 2, account.run_id};
+    const Recorder::Options options{
+        scene.output.compress, patience, std::llround(scene.time.end / scene.output.frame_interval) + 2,
+        std::llround(scene.time.end / scene.output.sample_interval()) + 2, account.run_id};
     if (from != nullptr) from->require_later(simulation);
     folder.make();
     if (from == nullptr) return Recorder(folder.path(), simulation.result_model(), options);
     return Recorder(
         folder.path(), simulation.result_model(), options,
         {from->earlier(), static_cast<int>(account.frames), static_cast<std::size_t>(account.probe_rows)});
-  }
-  static double probe_interval(const Scene& scene) {
-    return scene.output.probe_interval > 0 ? scene.output.probe_interval : scene.output.frame_interval;
   }
 
   // A run that fails ends where all was well.

@@ -194,8 +194,7 @@ const Section<Scene>& start_section() {
             .type = flag,
             .fallback = "false",
             .meaning = "Start from static equilibrium under gravity instead of the shape as given. It knows "
-                       "no contact, "
-                       "and no rings that slide on threads which are there from the start.",
+                       "no contact, and no rings that slide on threads which are there from the start.",
             .source = "Sec. 5.2 starts from a net that hangs at rest"},
            into(&Scene::equilibrium)},
       });
@@ -404,8 +403,7 @@ const Section<Probe>& probe_section() {
            "ring; `force` is the contact force on a ring or node; `tension` of a thread, net or mechanism is "
            "the greatest of its elements, of a node the greatest of the elements that meet there, of a ring "
            "that of threads that slide through it, the same on both sides; `material_coordinate` of a ring "
-           "is "
-           "how much unstretched thread lies between the start of the one that slides through it and the "
+           "is how much unstretched thread lies between the start of the one that slides through it and the "
            "ring; `mouth_area` (of the convex hull of all ring centres, in the plane that fits them best), "
            "`mouth_spread` (greatest distance between ring centres) and `energy` are of the whole scene."},
       {

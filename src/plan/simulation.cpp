@@ -202,10 +202,9 @@ void Simulation::find_mouth() {
 // Where the run ends when it has closed.
 void Simulation::require_mouth() const {
   if (scene_.time.end_when == EndWhen::never || (has_mouth_ && preparation_.closing_step >= 0)) return;
-  const std::string& place = scene_.time.end_when_source.text;
-  throw CaseError((place.empty() ? "" : place + ": ") +
-                  "error: time.end_when = \"mouth_closed\", but the case has no mouth that closes; it needs "
-                  "closing.time_s and three rings or more that do not lie along one line");
+  fail(scene_.time.end_when_source,
+       "time.end_when = \"mouth_closed\", but the case has no mouth that closes; it needs closing.time_s and "
+       "three rings or more that do not lie along one line");
 }
 
 // Velocities by so many steps, by what the last look saw.

@@ -167,8 +167,7 @@ void read_resolved_case(Digest& d) {
   try {
     const Scene scene = parse_case(d.model.case_toml, d.model.case_name + ".toml");
     d.gravity = scene.gravity && scene.gravity->norm() > 0 ? scene.gravity : std::nullopt;
-    const OutputSpec& output = scene.output;
-    d.look_interval = output.probe_interval > 0 ? output.probe_interval : output.frame_interval;
+    d.look_interval = scene.output.sample_interval();
     const Recognised scene_is = recognise(scene);
     d.paper_case = scene_is.as;
     if (!scene_is.difference.empty()) d.unjudged = "not the paper's scene: " + scene_is.difference;

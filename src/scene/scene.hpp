@@ -212,6 +212,9 @@ struct OutputSpec {
   bool checkpoint = true;           ///< keep a checkpoint to go on from
   double checkpoint_interval = 0;   ///< s of simulated time between two; 0: none by it
   double checkpoint_run_time = 60;  ///< s of run time between two; 0: none by it
+
+  /// s between two samples, at which probes are taken and events looked for
+  double sample_interval() const { return probe_interval > 0 ? probe_interval : frame_interval; }
 };
 
 enum class ProbeQuantity {

@@ -3,19 +3,11 @@
 #include <cmath>
 
 namespace cinch {
-namespace {
-
-double sample_interval(const OutputSpec& output) {
-  return output.probe_interval > 0 ? output.probe_interval : output.frame_interval;
-}
-
-}  // namespace
-
 RunTrack follow(const Scene& scene, int threads, const Nudge& nudge) {
   Simulation simulation(scene, prepare(scene), threads, nudge);
   RunTrack track;
   const Timeline& timeline = simulation.preparation().timeline;
-  const double interval = sample_interval(scene.output);
+  const double interval = scene.output.sample_interval();
   const auto samples = static_cast<std::int64_t>(scene.time.end / interval * (1 + 1e-12));
   for (std::int64_t k = 0; k <= samples; ++k) {
     simulation.advance_to(timeline.step_at(static_cast<double>(k) * interval));
