@@ -237,7 +237,9 @@ TEST_F(Restarted, AfterTwoHundredKills) {
               "--set",
               "output.probe_interval_s=0.0003",
               "--set",
-              "time.end_s=1000"};
+              "time.end_s=1000",
+              "--set",  // after a second, where a quick machine may come to
+              "contact.leaving=event"};
   Words next{"run", "--restart", "r"};
   for (Words* words : {&first, &next}) words->insert(words->end(), sets.begin(), sets.end());
   int went_on = 0, frames = 0;
