@@ -4,12 +4,12 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <random>
 
 #include "base/error.hpp"
 #include "kernels/ring_sleep.hpp"
 #include "oracle/closest.hpp"
 #include "store/fields.hpp"
+#include "support/dice.hpp"
 #include "support/memory_archive.hpp"
 #include "support/scenes.hpp"
 
@@ -21,22 +21,6 @@ using namespace cinch::test;
 // ----------------------------------------------------------------------------------------------------
 // The bound
 
-class Dice {
- public:
-  double between(double low, double high) {
-    return low + (high - low) * std::uniform_real_distribution<double>(0, 1)(random_);
-  }
-  Vec3 direction() {
-    std::normal_distribution<double> normal;
-    return Vec3(normal(random_), normal(random_), normal(random_)).normalized();
-  }
-  // Within, and often on, a ball about the origin.
-  Vec3 within(double radius) { return radius * std::min(1.0, between(0, 2)) * direction(); }
-
- private:
-  std::mt19937 random_{7};
-};
-
 struct PairPlaces {
   Vec3 a, b, host_a, host_b;
 
@@ -46,14 +30,19 @@ struct PairPlaces {
   }
 };
 
-// All nodes by at most `way`, by chance.
-PairPlaces scattered(const PairPlaces& p, double way, Dice& dice) {
-  return {p.a + dice.within(way), p.b + dice.within(way), p.host_a + dice.within(way),
-          p.host_b + dice.within(way)};
+// Within, and often on, a ball about the origin.
+Vec3 within(Dice& dice, double radius) {
+  return radius * std::min(1.0, dice.between(0, 2)) * dice.direction();
 }
 
-// The way that closes a gap soonest: the element goes towards the wire, the centre comes to meet it, or the
-// host's ends go apart along `across`, which turns the wire towards the element.
+// All nodes by at most `way`, by chance.
+PairPlaces scattered(const PairPlaces& p, double way, Dice& dice) {
+  return {p.a + within(dice, way), p.b + within(dice, way), p.host_a + within(dice, way),
+          p.host_b + within(dice, way)};
+}
+
+// The way that closes a gap soonest: the host's ends go apart along `across`, which turns the wire towards
+// the element, or the element goes towards the wire and the centre comes to meet it.
 PairPlaces turned(const PairPlaces& p, double way, const Vec3& across) {
   return {p.a, p.b, p.host_a - way * across, p.host_b + way * across};
 }
@@ -62,27 +51,42 @@ PairPlaces met(const PairPlaces& p, double way, const Vec3& towards) {
   return {p.a + way * towards, p.b + way * towards, p.host_a - way * towards, p.host_b - way * towards};
 }
 
-TEST(ContactSleep, NoMotionClosesTheGapBeforeItEnds) {
+// What a motion can close of a gap, by the head of ring_sleep.hpp.
+double closed_by(double motion, double radius, double length) {
+  return motion + std::sqrt(2) * radius * std::min(1.0, motion / length);
+}
+
+TEST(ContactSleep, NoMotionClosesMoreOfAGapThanTheBound) {
   constexpr double radius = 0.1;
-  Dice dice;
-  double closest = 0;  // part of a gap that was closed, at most
-  for (int k = 0; k < 4000; ++k) {
+  Dice dice(7);
+  double closest = 0;  // to the bound
+  for (int k = 0; k < 5000; ++k) {
     const double length = radius * std::pow(10, dice.between(-3, 1));
-    const Vec3 along = 0.5 * length * dice.direction(), start = 2 * radius * dice.within(1);
-    const PairPlaces p{start, start + dice.within(3 * radius), -along, along};
-    const double gap = p.distance(radius), way = 0.5 * plain::ring_sleep(gap, radius, 1 / length);
+    const Vec3 along = 0.5 * length * dice.direction(), start = 2 * radius * within(dice, 1);
+    const PairPlaces p{start, start + within(dice, 3 * radius), -along, along};
+    const double way = 0.5 * radius * std::pow(10, dice.between(-4, 0));
+    const double gap = p.distance(radius), most = closed_by(2 * way, radius, length);
     const Vec3 normal = along.normalized(), towards = -start.normalized();
     const Vec3 radial = (start - start.dot(normal) * normal).normalized();
-    double left = gap;
     for (const PairPlaces& moved : {scattered(p, way, dice), scattered(p, way, dice), turned(p, way, radial),
-                                    turned(p, way, -radial), met(p, way, towards), met(p, way, -towards)})
-      left = std::min(left, moved.distance(radius));
-    ASSERT_GE(left, -1e-12) << k;
-    ASSERT_GE(gap - left, 0) << k;
-    ASSERT_LE((gap - left) / gap, 1 + 1e-9) << "gap " << gap << ", host " << length;
-    closest = std::max(closest, (gap - left) / gap);
+                                    turned(p, way, -radial), met(p, way, towards), met(p, way, -towards)}) {
+      const double closed = gap - moved.distance(radius);
+      ASSERT_LE(closed, most * (1 + 1e-9) + 1e-12) << k << ": gap " << gap << ", host " << length;
+      closest = std::max(closest, closed / most);
+    }
   }
   EXPECT_GT(closest, 0.8) << "nor is the bound a loose one";
+}
+
+TEST(ContactSleep, PairsSleepForAsLongAsTheBoundAllows) {
+  constexpr double radius = 0.1;
+  Dice dice(7);
+  for (int k = 0; k < 1000; ++k) {
+    const double length = radius * std::pow(10, dice.between(-3, 1));
+    const double gap = radius * std::pow(10, dice.between(-4, 1));
+    EXPECT_NEAR(closed_by(plain::ring_sleep(gap, radius, 1 / length), radius, length), gap, 1e-12 * gap)
+        << "gap " << gap << ", host " << length;
+  }
 }
 
 TEST(ContactSleep, ARingThatDoesNotTurnSleepsForItsGap) {
